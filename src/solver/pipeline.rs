@@ -14,7 +14,7 @@
 //! │  │    even   Stretch ▶ Tethers ▶ Shear ▶ Bend        (forward; the first by line solver)
 //! │  │    odd    Bend ▶ Shear ▶ Stretch ▶ Tethers        (backward)
 //! │  ├─ Stretch       end of damping         Limit  one sweep of strain limiting
-//! │  ├─ SelfContacts  particle collision, then momentum of free pieces
+//! │  ├─ SelfContacts  momentum of several pieces, particle collision, then momentum of all
 //! │  ├─ Contacts      colliders: narrow phase and response
 //! │  ├─ Hold          anchors: max distance and backstop
 //! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass and colliders

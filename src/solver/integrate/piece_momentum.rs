@@ -31,7 +31,7 @@ pub(crate) fn begin_particle_contacts(world: &mut World) {
     if world.pieces < 2 || world.particle_collision.is_none() {
         return;
     }
-    remove_from_pieces(world);
+    remove_from_pieces(world, Rounding::Corrected);
     particle_contacts::join_touching_pieces(world);
 }
 
@@ -41,11 +41,20 @@ pub(crate) fn end_particle_contacts(world: &mut World) {
     if world.particle_collision.is_some() && world.scratch.piece_groups.has_joined {
         remove_from_groups(world);
     } else {
-        remove_from_pieces(world);
+        remove_from_pieces(world, Rounding::Exact);
     }
 }
 
-fn remove_from_pieces(world: &mut World) {
+/// How velocities count the rounding of positions that a correction causes.
+#[derive(Clone, Copy, Debug)]
+enum Rounding {
+    /// As part of the corrections of the substep, which the last correction removes.
+    Corrected,
+    /// Not at all: the predicted displacement takes it.
+    Exact,
+}
+
+fn remove_from_pieces(world: &mut World, rounding: Rounding) {
     if !compute_corrections(world) {
         return;
     }
@@ -53,7 +62,7 @@ fn remove_from_pieces(world: &mut World) {
     let is_pushed = has_collider_impulse(world);
     let members = core::mem::take(&mut world.scratch.pieces.members);
     for piece in members.iter() {
-        remove_from(world, piece, MAX_FIXED, is_pushed);
+        remove_from(world, piece, MAX_FIXED, is_pushed, rounding);
     }
     world.scratch.pieces.members = members;
 }
@@ -69,7 +78,8 @@ fn remove_from_groups(world: &mut World) {
     groups.sort(&world.mesh, &world.scratch.pieces.label);
     for (group, piece) in groups.members.iter().zip(members.iter()) {
         let is_joined = group.len() > piece.len();
-        remove_from(world, group, if is_joined { 0 } else { MAX_FIXED }, is_pushed);
+        let max_fixed = if is_joined { 0 } else { MAX_FIXED };
+        remove_from(world, group, max_fixed, is_pushed, Rounding::Exact);
     }
     world.scratch.pieces.members = members;
     world.scratch.piece_groups = groups;
@@ -78,7 +88,13 @@ fn remove_from_groups(world: &mut World) {
 /// Removes the momentum that the corrections since prediction added to some particles, unless more
 /// than `max_fixed` of them are fixed. `is_pushed`: whether a collider may push them. The middles and errors of `compute_angular_errors` are in
 /// `relative_wind` and `correction`.
-fn remove_from(world: &mut World, particles: &[u32], max_fixed: usize, is_pushed: bool) {
+fn remove_from(
+    world: &mut World,
+    particles: &[u32],
+    max_fixed: usize,
+    is_pushed: bool,
+    rounding: Rounding,
+) {
     let all = || particles.iter().map(|i| *i as usize);
     let (p, scratch) = (&world.particles, &world.scratch);
     let (fixed, count) = fixed_particles(all(), &p.w);
@@ -94,7 +110,9 @@ fn remove_from(world: &mut World, particles: &[u32], max_fixed: usize, is_pushed
         if count == 0 && may_add_spin(world) {
             let points = || free().map(|i| (velocity_origin(world, i), correction(i), p.mass[i]));
             let motion = RigidMotion::of_points(points);
-            subtract(world, particles, |world, i| motion.displacement_at(world.particles.x.get(i)));
+            subtract(world, particles, rounding, |world, i| {
+                motion.displacement_at(world.particles.x.get(i))
+            });
         }
         return;
     }
@@ -106,15 +124,14 @@ fn remove_from(world: &mut World, particles: &[u32], max_fixed: usize, is_pushed
     let (middles, errors) = (&scratch.relative_wind, &scratch.correction);
     let points = || free().map(|i| (middles.get(i), errors.get(i), p.mass[i]));
     let motion = RigidMotion::of_points_about(points, pivot).with_translation(translation);
-    subtract(world, particles, |world, i| {
+    subtract(world, particles, rounding, |world, i| {
         motion.displacement_at(world.scratch.relative_wind.get(i))
     });
 }
 
 /// Whether a soft pin holds any of some particles.
 fn has_soft_pin(world: &World, particles: &[u32]) -> bool {
-    world.pins.has_soft()
-        && particles.iter().any(|i| world.pins.get(*i).is_some_and(Pin::is_soft))
+    world.pins.has_soft() && particles.iter().any(|i| world.pins.get(*i).is_some_and(Pin::is_soft))
 }
 
 /// The position that the velocity of a particle counts from: predicted − displacement + last
@@ -127,21 +144,28 @@ fn velocity_origin(world: &World, i: usize) -> Vec3 {
 
 /// The mean of vectors by mass.
 fn mean(vectors: impl Iterator<Item = (Vec3, f32)>) -> Vec3 {
-    let (sum, total) = vectors
-        .fold((Vec3::ZERO, 0.0), |(sum, total), (vector, mass)| (sum + vector * mass, total + mass));
+    let (sum, total) = vectors.fold((Vec3::ZERO, 0.0), |(sum, total), (vector, mass)| {
+        (sum + vector * mass, total + mass)
+    });
     if total > 0.0 { sum * (1.0 / total) } else { Vec3::ZERO }
 }
 
-/// Subtracts displacements [m] from the free ones of some particles. The predicted displacement
-/// takes the rounding error of that, so that velocities count the exact difference.
-fn subtract(world: &mut World, particles: &[u32], by: impl Fn(&World, usize) -> Vec3) {
+/// Subtracts displacements [m] from the free ones of some particles.
+fn subtract(
+    world: &mut World,
+    particles: &[u32],
+    rounding: Rounding,
+    by: impl Fn(&World, usize) -> Vec3,
+) {
     let share = world.correction_share();
     for i in particles.iter().map(|i| *i as usize) {
         if world.particles.w[i] > 0.0 {
             let (before, by) = (world.particles.x.get(i), by(world, i));
             let after = before - by;
             world.particles.x.set(i, after);
-            world.scratch.displacement.add(i, ((after - before) + by) * -share);
+            if matches!(rounding, Rounding::Exact) {
+                world.scratch.displacement.add(i, ((after - before) + by) * -share);
+            }
         }
     }
 }

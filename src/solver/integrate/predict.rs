@@ -4,7 +4,7 @@
 //! d = extrapolation · d₋ + velocity_step (v_extrapolated + velocity_step · a)        x ← x + d
 //! ```
 //! Method: the predictor of `state::settings::BdfScheme`, with d₋ the displacement of the last
-//! substep. A displacement larger than `max_displacement` relative to the rigid motion of the cloth
+//! substep. A displacement larger than `max_displacement` relative to the rigid motion of its piece
 //! is clamped, so that a violent jerk is absorbed while the cloth may still fall, fly and spin at
 //! any speed.
 //!

@@ -35,13 +35,7 @@ impl PieceMembers {
 
     /// Sorts the particles of `mesh` by `list_of(piece)`, one of `0..lists`. `label` is the piece of
     /// each triangle.
-    pub fn sort(
-        &mut self,
-        mesh: &Mesh,
-        label: &[u32],
-        lists: usize,
-        list_of: impl Fn(u32) -> u32,
-    ) {
+    pub fn sort(&mut self, mesh: &Mesh, label: &[u32], lists: usize, list_of: impl Fn(u32) -> u32) {
         let Self { order, ends } = self;
         let members = || {
             let corners = mesh.corner_of.iter().enumerate().filter(|(_, corner)| **corner != NONE);
