@@ -168,6 +168,18 @@ fn a_sheet_that_crumples_with_particle_collision_allocates_nothing() {
 }
 
 #[test]
+fn pieces_that_collide_with_each_other_allocate_nothing() {
+    let mut cloth = standing_sheet(SelfCollision::Particles);
+    let (left, right) = (Vec3::new(-1.0, -0.51, -1.0), Vec3::new(4.0, -0.51, -1.0));
+    assert!(cloth.cut(left, right, Vec3::Z * 2.0).unwrap() > 20);
+    assert!(cloth.stats().pieces > 1, "the cut detached no piece");
+    let mut restored = Cloth::restore(&cloth.save()).unwrap();
+    for cloth in [&mut cloth.clone(), &mut restored, &mut cloth] {
+        assert_eq!(allocation_count(|| cloth.step(120)), 0);
+    }
+}
+
+#[test]
 fn a_sheet_that_crumples_with_surface_collision_allocates_nothing() {
     let mut cloth = standing_sheet(SelfCollision::Surface);
     assert_eq!(allocation_count(|| cloth.step(90)), 0);

@@ -281,8 +281,7 @@ fn build_world(
         let x = world.rest[particle as usize];
         world.pins.insert(particle, x, x);
     }
-    world.pieces =
-        world.mesh.label_pieces(&mut world.scratch.pieces.label, &mut world.scratch.piece_stack);
+    world.label_pieces();
     world.rebuild_crack_tips();
     world.compute_masses();
     world.constraints.update_compliances(material);
@@ -350,7 +349,7 @@ impl World {
         self.reserve_contacts();
         self.rebuild_particle_collision();
         self.rebuild_surface_collision();
-        self.mesh.label_pieces(&mut self.scratch.pieces.label, &mut self.scratch.piece_stack);
+        self.label_pieces();
     }
 
     /// Reserves what tears may still need, after a cut added triangles.
@@ -361,7 +360,7 @@ impl World {
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
         scratch.piece_stack.reserve_exact(triangles.saturating_sub(scratch.piece_stack.len()));
         scratch.pieces.reserve();
-        scratch.rollback.reserve(triangles);
+        scratch.piece_groups.reserve(triangles);
     }
 
     /// Allocates the scratch buffers of the solver stages for `capacity` particles.

@@ -308,8 +308,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     world.over_stretched = saved.over_stretched;
     world.over_stretch_reported = saved.over_stretch_reported;
     require(saved.tether_slack >= 0.0)?;
-    world.pieces =
-        world.mesh.label_pieces(&mut world.scratch.pieces.label, &mut world.scratch.piece_stack);
+    world.label_pieces();
     world.rebuild_crack_tips();
     world.compute_masses();
     world.rebuild_tethers();

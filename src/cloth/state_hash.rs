@@ -7,6 +7,7 @@
 use crate::cloth::Cloth;
 use crate::math::float_env::with_float_env;
 use crate::math::hasher::StateHasher;
+use crate::state::colliders::Impulse;
 use glam::Vec3;
 
 impl Cloth {
@@ -75,6 +76,9 @@ impl Cloth {
                 hasher.write_f32s(&pose.position.to_array());
                 hasher.write_f32s(&pose.rotation.to_array());
             }
+            let Impulse { linear, angular } = body.impulse;
+            hasher.write_f32s(&linear.to_array());
+            hasher.write_f32s(&angular.to_array());
         }
         for contact in world.warm_start.iter() {
             hasher.write_u32s(&contact.ids);

@@ -15,7 +15,7 @@
 //! │  │    even   Stretch ▶ Tethers ▶ Shear ▶ Bend        (forward; the first by line solver)
 //! │  │    odd    Bend ▶ Shear ▶ Stretch ▶ Tethers        (backward)
 //! │  ├─ Stretch       end of damping         Limit  one sweep of strain limiting
-//! │  ├─ SelfContacts  particle collision, then momentum of free pieces
+//! │  ├─ SelfContacts  momentum of several pieces, particle collision, then momentum of all
 //! │  ├─ Contacts      colliders: narrow phase and response
 //! │  ├─ Hold          anchors: max distance and backstop
 //! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass and colliders
@@ -38,7 +38,9 @@
 //! before non-crossing surfaces, and these before the strain limit, whose excess is reported.
 
 use crate::model::links::LinkKind;
-use crate::solver::integrate::{forces, momentum, predict, recover, sleep, time_step, velocities};
+use crate::solver::integrate::{
+    forces, momentum, piece_momentum, predict, recover, sleep, time_step, velocities,
+};
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::rebase;
 use crate::solver::self_collide::particle_contacts;
@@ -171,6 +173,7 @@ fn run_substep(world: &mut World, number: u32) {
     }
     timed!(world, Bend, mesh_kernel::scatter(world));
     timed!(world, Pairs, particle_contacts::refresh_pairs(world));
+    timed!(world, SelfContacts, piece_momentum::begin_particle_contacts(world));
     timed!(world, SelfContacts, particle_contacts::solve(world));
     timed!(world, SelfContacts, momentum::remove_internal_momentum(world));
     timed!(world, Pairs, collide::broad_phase::refresh(world));

@@ -44,6 +44,7 @@ use crate::solver::stretch::end_weights::EndWeights;
 use crate::solver::stretch::line_scratch::LineScratch;
 use crate::solver::stretch::rollback_state::RollbackState;
 use crate::solver::topology::piece_labels::PieceLabels;
+use crate::solver::topology::piece_members::PieceGroups;
 use crate::solver::topology::tear_scratch::TearScratch;
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::Attachments;
@@ -249,8 +250,11 @@ pub(crate) struct TickScratch {
     pub rollback: RollbackState,
     /// Edges that the current vertex split opened. Written by `topology::tear`.
     pub opened_edges: Vec<OpenedEdge>,
-    /// Piece of each triangle, now and before the last tear or cut. Written by tears and cuts.
+    /// Piece of each triangle, now and before the last tear or cut, and the particles of each piece.
+    /// Written by tears and cuts.
     pub pieces: PieceLabels,
+    /// Pieces that touch each other in this substep. Written by `piece_momentum`.
+    pub piece_groups: PieceGroups,
     /// Stack of the flood fill that labels the pieces.
     pub piece_stack: Vec<u32>,
 }
@@ -277,9 +281,10 @@ impl TickScratch {
             damping: DampingScratch::default(),
             contacts: ContactScratch::default(),
             tear: TearScratch::with_capacity(max_tears),
-            rollback: RollbackState::with_capacity(capacity, triangles),
+            rollback: RollbackState::with_capacity(capacity),
             opened_edges: Vec::with_capacity(2),
-            pieces: PieceLabels::new(triangles),
+            pieces: PieceLabels::new(capacity, triangles),
+            piece_groups: PieceGroups::with_capacity(capacity, triangles),
             piece_stack: Vec::with_capacity(triangles),
         };
         zero(&mut scratch.acceleration);
@@ -402,7 +407,7 @@ impl World {
     /// The history of the particle becomes that of free fall, if there is a history.
     pub fn set_particle_state(&mut self, particle: usize, x: Vec3, v: Vec3) {
         self.wake();
-        let (h, gravity) = (self.regular_scheme().h, self.settings.gravity);
+        let (h, gravity) = (self.regular_scheme().h, self.gravity_of_history());
         self.particles.set_motion(particle, x, v, gravity, h);
         if self.has_no_history {
             self.particles.drop_history_of(particle);
@@ -414,15 +419,29 @@ impl World {
     /// Resets the history of every particle to free fall, after the length or the order of the
     /// substep changed. Positions and velocities stay.
     pub fn reset_history(&mut self) {
-        let (h, gravity) = (self.regular_scheme().h, self.settings.gravity);
+        let (h, gravity) = (self.regular_scheme().h, self.gravity_of_history());
         self.particles.reset_history(gravity, h);
         self.has_no_history = false;
+    }
+
+    /// The acceleration that a new history contains [m/s²]: gravity for BDF2. BDF1 extrapolates
+    /// nothing, so that any acceleration in its history would be a jump of velocity.
+    fn gravity_of_history(&self) -> Vec3 {
+        let is_extrapolated = self.regular_scheme().extrapolation > 0.0;
+        if is_extrapolated { self.settings.gravity } else { Vec3::ZERO }
     }
 
     /// Largest displacement of a particle per substep relative to the rigid motion of the
     /// cloth [m].
     pub fn max_displacement(&self) -> f32 {
         self.settings.max_displacement * self.mean_edge
+    }
+
+    /// Labels the pieces of the mesh, counts them, and sorts the particles by piece.
+    pub fn label_pieces(&mut self) {
+        let (mesh, TickScratch { pieces, piece_stack, .. }) = (&self.mesh, &mut self.scratch);
+        self.pieces = mesh.label_pieces(&mut pieces.label, piece_stack);
+        pieces.members.sort(mesh, &pieces.label, self.pieces as usize, |piece| piece);
     }
 
     /// Rebuilds all tethers, after pins or pieces changed.

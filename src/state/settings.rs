@@ -35,7 +35,7 @@ pub struct Settings {
     /// Decay rate of velocity [1/s], at least 0: velocity decays as exp(−damping · t), independent
     /// of the step. Default: 0.5.
     pub damping: f32,
-    /// Maximum displacement of a particle per substep, relative to the rigid motion of the whole
+    /// Maximum displacement of a particle per substep, relative to the rigid motion of its piece of
     /// cloth, in mean rest lengths, above 0. It also limits the speed of a grabbed particle.
     /// Default: 0.5.
     pub max_displacement: f32,

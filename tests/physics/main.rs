@@ -17,6 +17,7 @@ mod material_laws;
 mod momentum;
 mod moving_frame;
 mod plastic_bending;
+mod random_scenes;
 mod resolution_independence;
 mod sleep;
 mod strain_limit;

@@ -160,7 +160,11 @@ pub(crate) fn project_out_in_substep(
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
     broad_phase::refresh(world);
-    solve_colliders(world, &|body| substep_frames(body, substep, substeps), Some(Projection::Surface));
+    solve_colliders(
+        world,
+        &|body| substep_frames(body, substep, substeps),
+        Some(Projection::Surface),
+    );
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     let x = &mut world.particles.x;
@@ -208,7 +212,8 @@ fn solve_colliders(
         if neighbours.particle_blocks.is_empty() {
             continue;
         }
-        let gap = contact_gap(body, world.material.thickness) * projection.map_or(1.0, Projection::gap_share);
+        let gap = contact_gap(body, world.material.thickness)
+            * projection.map_or(1.0, Projection::gap_share);
         let mut particles = LocalParticles {
             x: &mut p.x,
             v: &p.v,

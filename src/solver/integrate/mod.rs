@@ -7,6 +7,7 @@
 
 pub(crate) mod forces;
 pub(crate) mod momentum;
+pub(crate) mod piece_momentum;
 pub(crate) mod predict;
 pub(crate) mod recover;
 pub(crate) mod rigid_motion;

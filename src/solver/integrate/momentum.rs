@@ -28,14 +28,17 @@
 //! While the cloth touches colliders, [`remove_internal_momentum`] compares with the start of the
 //! corrections only, and only where folds, damping or particle collision exert a torque.
 //!
-//! Invariant: no particle moves if the cloth has several pieces, three or more fixed particles, or
-//! soft pins; `remove_rigid_motion_since` moves free cloth only.
+//! `piece_momentum` does the same for cloth in several pieces.
+//!
+//! Invariant: no particle of a piece moves that has three or more fixed particles or soft pins;
+//! `remove_rigid_motion_since` moves free cloth only.
 
 use crate::math::columns::Columns;
 use crate::math::simd::leveled;
 use crate::math::wide4::Float4;
 use crate::solver::bend;
 use crate::solver::collide::collider_contact::ColliderContact;
+use crate::solver::integrate::piece_momentum;
 use crate::solver::integrate::rigid_motion::{Component, FreeParticles, Pivot, RigidMotion};
 use crate::solver::particle_stage::interleaved;
 use crate::solver::world::World;
@@ -57,12 +60,16 @@ pub(crate) enum Support {
 }
 
 /// Fixed particles of a piece: with more than two, their reactions may change every momentum.
-const MAX_FIXED: usize = 2;
+pub(super) const MAX_FIXED: usize = 2;
 
-/// The first fixed particles and their number, of which one more than [`MAX_FIXED`] are counted.
-fn fixed_particles(w: &[f32]) -> ([usize; MAX_FIXED + 1], usize) {
+/// The first fixed ones of some particles and their number, of which one more than [`MAX_FIXED`]
+/// are counted.
+pub(super) fn fixed_particles(
+    particles: impl Iterator<Item = usize>,
+    w: &[f32],
+) -> ([usize; MAX_FIXED + 1], usize) {
     let (mut fixed, mut count) = ([0; MAX_FIXED + 1], 0);
-    for i in (0..w.len()).filter(|i| w[*i] <= 0.0).take(MAX_FIXED + 1) {
+    for i in particles.filter(|i| w[*i] <= 0.0).take(MAX_FIXED + 1) {
         fixed[count] = i;
         count += 1;
     }
@@ -70,7 +77,7 @@ fn fixed_particles(w: &[f32]) -> ([usize; MAX_FIXED + 1], usize) {
 }
 
 /// What the first `count` of some fixed particles hold a piece with.
-fn pivot(p: &Particles, fixed: [usize; 3], count: usize) -> Pivot {
+pub(super) fn pivot(p: &Particles, fixed: [usize; 3], count: usize) -> Pivot {
     let [a, b] = [fixed[0], fixed[1]].map(|i| p.x.get(i));
     match count {
         0 => Pivot::Nothing,
@@ -79,12 +86,16 @@ fn pivot(p: &Particles, fixed: [usize; 3], count: usize) -> Pivot {
     }
 }
 
-/// Removes the momentum that internal stages added since prediction, from a cloth of one piece.
+/// Removes the momentum that internal stages added since prediction, from each piece.
 pub(crate) fn remove_internal_momentum(world: &mut World) {
-    if world.pieces != 1 || world.pins.has_soft() {
+    if world.pieces != 1 {
+        return piece_momentum::end_particle_contacts(world);
+    }
+    if world.pins.has_soft() {
         return;
     }
-    let (fixed, count) = fixed_particles(&world.particles.w);
+    let w = &world.particles.w;
+    let (fixed, count) = fixed_particles(0..w.len(), w);
     if count > MAX_FIXED || !compute_corrections(world) {
         return;
     }
@@ -115,14 +126,14 @@ pub(crate) fn remove_internal_momentum(world: &mut World) {
 ///
 /// The second-order scheme spreads an impulse over the following substeps, so the angular momentum
 /// changes in substeps without contact too, and must.
-fn has_collider_impulse(world: &World) -> bool {
+pub(super) fn has_collider_impulse(world: &World) -> bool {
     let last = world.colliders.iter().map(|body| &body.impulse);
     let mut all = last.chain(&world.scratch.contacts.impulses);
     all.any(|impulse| *impulse != Impulse::default())
 }
 
 /// Whether particle collision, folds or damping of bending may exert a large torque on free cloth.
-fn may_add_spin(world: &World) -> bool {
+pub(super) fn may_add_spin(world: &World) -> bool {
     world.particle_collision.is_some() || bend::may_add_spin(world)
 }
 
@@ -158,7 +169,7 @@ fn mean_correction(world: &World) -> Vec3 {
 /// Σ m x × v' − Σ m x₀ × v = Σ m (x₀ + x) / 2 × (v' − v)      if x − x₀ = h (v + v') / 2
 /// error = (v' − v − h a) · h / (new_weight · share)
 /// ```
-fn compute_angular_errors(world: &mut World) {
+pub(super) fn compute_angular_errors(world: &mut World) {
     let (scheme, share, level) = (world.scheme(), world.correction_share(), world.level);
     let (p, scratch) = (&world.particles, &mut world.scratch);
     let [x, predicted, displacement] =
@@ -210,7 +221,7 @@ fn compute_error_column(
 
 /// Fills `correction` with what stages moved each particle by since prediction [m]. Returns whether
 /// any particle moved.
-fn compute_corrections(world: &mut World) -> bool {
+pub(super) fn compute_corrections(world: &mut World) -> bool {
     let (p, scratch) = (&world.particles, &mut world.scratch);
     let corrections = &mut scratch.correction;
     corrections.resize(p.len());

@@ -4,7 +4,7 @@
 //! d = extrapolation · d₋ + velocity_step (v_extrapolated + velocity_step · a)        x ← x + d
 //! ```
 //! Method: the predictor of `state::settings::BdfScheme`, with d₋ the displacement of the last
-//! substep. A displacement larger than `max_displacement` relative to the rigid motion of the cloth
+//! substep. A displacement larger than `max_displacement` relative to the rigid motion of its piece
 //! is clamped, so that a violent jerk is absorbed while the cloth may still fall, fly and spin at
 //! any speed.
 //!
@@ -65,7 +65,11 @@ pub(crate) fn predict_positions(world: &mut World) {
         },
     );
     if is_long.into_inner() {
-        clamp_displacement(world, max_length);
+        if world.pieces == 1 {
+            clamp_displacement(world, max_length);
+        } else {
+            clamp_displacement_of_pieces(world, max_length);
+        }
     }
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let columns = (p.x.slices_mut(), scratch.displacement.slices(), scratch.predicted.slices_mut());
@@ -119,6 +123,35 @@ fn apply_displacement_column(x: &mut [f32], displacement: &[f32], predicted: &mu
     for ((x, displacement), predicted) in x.iter_mut().zip(displacement).zip(predicted) {
         *x += displacement;
         *predicted = *x;
+    }
+}
+
+/// Clamps each displacement to `max_length` [m] relative to the rigid motion of its piece.
+///
+/// A free piece keeps its momentum and angular momentum, as in [`clamp_displacement`].
+fn clamp_displacement_of_pieces(world: &mut World, max_length: f32) {
+    let (p, scratch) = (&world.particles, &mut world.scratch);
+    let displacement = &mut scratch.displacement;
+    for piece in scratch.pieces.members.iter() {
+        let free = || piece.iter().map(|i| *i as usize).filter(|i| p.w[*i] > 0.0);
+        let rigid = RigidMotion::fit(free, &p.x, |i| displacement.get(i), &p.mass);
+        let mut is_clamped = false;
+        for i in free() {
+            let common = rigid.displacement_at(p.x.get(i));
+            let relative = displacement.get(i) - common;
+            let length2 = relative.length_squared();
+            if length2 > max_length * max_length {
+                displacement.set(i, common + relative * (max_length / length2.sqrt()));
+                is_clamped = true;
+            }
+        }
+        if is_clamped && piece.iter().all(|i| p.w[*i as usize] > 0.0) {
+            let clamped = RigidMotion::fit(free, &p.x, |i| displacement.get(i), &p.mass);
+            for i in free() {
+                let x = p.x.get(i);
+                displacement.add(i, rigid.displacement_at(x) - clamped.displacement_at(x));
+            }
+        }
     }
 }
 

@@ -39,14 +39,39 @@ impl RigidMotion {
 
     /// As `fit`, for points given as position, displacement and mass.
     pub fn of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(points: impl Fn() -> I) -> Self {
-        let Self { center, translation, .. } = Self::translation_of_points(&points);
+        let fitted = Self::translation_of_points(&points);
+        let (spin, inertia) = fitted.spin_and_inertia_of_points(points());
+        Self { rotation: solve(&inertia, spin), ..fitted }
+    }
+
+    /// As `about`, for points given as position, displacement and mass.
+    pub fn of_points_about<I: Iterator<Item = (Vec3, Vec3, f32)>>(
+        points: impl Fn() -> I,
+        pivot: Pivot,
+    ) -> Self {
+        let fitted = match pivot {
+            Pivot::Nothing => Self::translation_of_points(&points),
+            Pivot::Point(center) | Pivot::Axis(center, _) => {
+                Self { center, translation: Vec3::ZERO, rotation: Vec3::ZERO }
+            }
+        };
+        let (spin, inertia) = fitted.spin_and_inertia_of_points(points());
+        Self { rotation: pivot.rotation(inertia, spin), ..fitted }
+    }
+
+    /// The angular momentum of displacements less the translation, and the moment of inertia, both
+    /// about the centre.
+    fn spin_and_inertia_of_points(
+        &self,
+        points: impl Iterator<Item = (Vec3, Vec3, f32)>,
+    ) -> (Vec3, Mat3) {
         let (mut spin, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
-        for (x, displacement, mass) in points() {
-            let r = x - center;
-            spin += r.cross(displacement - translation) * mass;
+        for (x, displacement, mass) in points {
+            let r = x - self.center;
+            spin += r.cross(displacement - self.translation) * mass;
             add_inertia(&mut inertia, r, mass);
         }
-        Self { center, translation, rotation: solve(&inertia, spin) }
+        (spin, inertia)
     }
 
     /// The centre of mass of points, and the translation with their momentum.

@@ -15,6 +15,7 @@
 
 use crate::error::{Result, check};
 use crate::math::TINY;
+use crate::mesh::{NONE, triangle_of};
 use crate::solver::self_collide::particle_pairs::{PairListInput, ParticleCollision};
 use crate::solver::self_collide::surface::surface_stages::MAX_GAP;
 use crate::solver::world::World;
@@ -79,6 +80,28 @@ pub(crate) fn refresh_pairs(world: &mut World) {
     };
     collision.refresh_pairs(pair_list_input(world));
     world.particle_collision = Some(collision);
+}
+
+/// Joins the pieces of free particles that are too near, in `scratch.piece_groups`.
+pub(crate) fn join_touching_pieces(world: &mut World) {
+    let groups = &mut world.scratch.piece_groups;
+    groups.reset(world.pieces);
+    let Some(collision) = &world.particle_collision else {
+        return;
+    };
+    let (p, labels, mesh) = (&world.particles, &world.scratch.pieces, &world.mesh);
+    for [i, j] in collision.pairs.iter().map(|pair| pair.map(|particle| particle as usize)) {
+        let corners = [mesh.corner_of[i], mesh.corner_of[j]];
+        let is_held = p.w[i] <= 0.0 || p.w[j] <= 0.0;
+        if is_held || corners.contains(&NONE) {
+            continue;
+        }
+        let [a, b] = corners.map(|corner| labels.label[triangle_of(corner)]);
+        let distance2 = (p.x.get(j) - p.x.get(i)).length_squared();
+        if a != b && distance2 < collision.distance * collision.distance {
+            groups.join(a, b);
+        }
+    }
 }
 
 /// Separates the pairs of particles that are too near, in one pass.

@@ -17,28 +17,17 @@
 //! the rollback does not move them.
 
 use crate::geometry::transform::Transform;
-use crate::mesh::{NONE, triangle_of};
 use crate::solver::integrate::rigid_motion::RigidMotion;
-use crate::solver::stretch::rollback_state::RollbackState;
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraint;
 use glam::Vec3;
 
 /// Computes the rollback position of every particle.
 pub(crate) fn compute(world: &mut World) {
-    let mut rollback = core::mem::take(&mut world.scratch.rollback);
-    let piece_of = |particle: usize| match world.mesh.corner_of[particle] {
-        NONE => None,
-        corner => Some(world.scratch.pieces.label[triangle_of(corner)] as usize),
-    };
-    rollback.sort_by_piece(world.particles.len(), world.pieces as usize, piece_of);
-    let RollbackState { positions, order, ends } = &mut rollback;
+    let mut positions = core::mem::take(&mut world.scratch.rollback.positions);
     let (p, shift) = (&world.particles, mean_held_displacement(world));
     positions.copy_from(&p.x);
-    let mut first = 0;
-    for end in ends.iter() {
-        let piece = &order[first..*end as usize];
-        first = *end as usize;
+    for piece in world.scratch.pieces.members.iter() {
         let particles = || piece.iter().map(|i| *i as usize);
         if particles().any(|i| p.w[i] <= 0.0) {
             let free = particles().filter(|i| p.w[*i] > 0.0);
@@ -64,7 +53,7 @@ pub(crate) fn compute(world: &mut World) {
             particles().for_each(|i| positions.set(i, motion.transform(p.x_prev_tick.get(i))));
         }
     }
-    world.scratch.rollback = rollback;
+    world.scratch.rollback.positions = positions;
 }
 
 /// The last and the current frame of the attachment that holds the first attached particle of a

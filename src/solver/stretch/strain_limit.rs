@@ -246,7 +246,7 @@ fn restore_momentum(world: &mut World) {
     }
     let h = world.regular_scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
-    for piece in scratch.rollback.pieces() {
+    for piece in scratch.pieces.members.iter() {
         let particles = || piece.iter().map(|i| *i as usize);
         if particles().any(|i| p.w[i] <= 0.0) {
             continue;

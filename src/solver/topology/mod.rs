@@ -5,5 +5,6 @@
 
 pub(crate) mod cut;
 pub(crate) mod piece_labels;
+pub(crate) mod piece_members;
 pub(crate) mod tear;
 pub(crate) mod tear_scratch;

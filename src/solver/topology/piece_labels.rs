@@ -4,10 +4,11 @@
 //! order of their first triangle. The labels from before the last tears stay, so that
 //! `tear::update_pieces` can tell which pieces were detached.
 //!
-//! Data only; `topology` and the creation code write it.
-//! Invariant: `label` has one entry per triangle.
+//! Data only; `World::label_pieces` and `topology` write it.
+//! Invariant: `label` has one entry per triangle, and `members` belong to these labels.
 
 use crate::mesh::NONE;
+use crate::solver::topology::piece_members::PieceMembers;
 
 /// Piece of each triangle, now and before the last tears, with buffers to compare both.
 #[derive(Clone, Debug, Default)]
@@ -18,16 +19,20 @@ pub(crate) struct PieceLabels {
     pub size: Vec<u32>,
     /// For each old piece, the new piece that continues it: its largest part.
     pub successor: Vec<u32>,
+    /// The particles of each piece.
+    pub members: PieceMembers,
 }
 
 impl PieceLabels {
-    /// Labels for a mesh of `triangles` triangles in one piece.
-    pub fn new(triangles: usize) -> Self {
+    /// Labels for a mesh of `triangles` triangles in one piece. The lists of its particles are empty
+    /// and have capacity for `particles` particles.
+    pub fn new(particles: usize, triangles: usize) -> Self {
         Self {
             label: vec![0; triangles],
             old_label: vec![0; triangles],
             size: Vec::with_capacity(triangles),
             successor: Vec::with_capacity(triangles),
+            members: PieceMembers::with_capacity(particles, triangles),
         }
     }
 
@@ -42,5 +47,6 @@ impl PieceLabels {
         let count = self.label.len();
         self.size.reserve_exact(count.saturating_sub(self.size.len()));
         self.successor.reserve_exact(count.saturating_sub(self.successor.len()));
+        self.members.reserve(count);
     }
 }

@@ -369,24 +369,25 @@ fn update_links(world: &mut World, opened: &[OpenedEdge]) {
 /// Labels the pieces again after the last tear or cut, pushes an event for each detached piece, and
 /// rebuilds the irregular lists.
 pub(crate) fn update_pieces(world: &mut World) {
-    let mut pieces = core::mem::take(&mut world.scratch.pieces);
+    let old_count = world.pieces;
+    let pieces = &mut world.scratch.pieces;
     core::mem::swap(&mut pieces.label, &mut pieces.old_label);
-    let count = world.mesh.label_pieces(&mut pieces.label, &mut world.scratch.piece_stack);
-    if count > world.pieces {
-        push_detached_events(world, &mut pieces, count);
+    world.label_pieces();
+    if world.pieces > old_count {
+        let mut pieces = core::mem::take(&mut world.scratch.pieces);
+        push_detached_events(world, &mut pieces, old_count);
+        world.scratch.pieces = pieces;
     }
-    world.pieces = count;
-    world.scratch.pieces = pieces;
     world.rebuild_irregular_lists();
 }
 
 /// Pushes one event for each detached piece: all parts of an old piece but the largest, in the
-/// order of their first triangles.
-fn push_detached_events(world: &mut World, pieces: &mut PieceLabels, count: u32) {
+/// order of their first triangles. `old_count` is the number of old pieces.
+fn push_detached_events(world: &mut World, pieces: &mut PieceLabels, old_count: u32) {
     pieces.size.clear();
-    pieces.size.resize(count as usize, 0);
+    pieces.size.resize(world.pieces as usize, 0);
     pieces.successor.clear();
-    pieces.successor.resize(world.pieces as usize, NONE);
+    pieces.successor.resize(old_count as usize, NONE);
     pieces.label.iter().for_each(|label| pieces.size[*label as usize] += 1);
     let size = |piece: u32| pieces.size[piece as usize];
     // Labels follow the order of first triangles, so of two equal parts the earlier one stays.

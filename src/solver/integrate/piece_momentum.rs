@@ -1,0 +1,171 @@
+//! Momentum conservation of cloth in several pieces: what `momentum` does, for each piece by itself.
+//!
+//! ```text
+//! Stretch ▶ Bend ▶ Limit      each piece keeps its momentum           begin_particle_contacts
+//! particle collision          pieces that touch keep their sum        end_particle_contacts
+//! ```
+//! Internal stages exchange no momentum between pieces, so each piece is corrected by itself, by the
+//! rules of `momentum` for a cloth of one piece. Contacts do exchange momentum: pieces whose
+//! particles touch form a group (union–find), whose total momentum stays. A group that something
+//! holds is left as it is, since particle collision already conserves the sum of its pairs.
+//!
+//! Reads predicted positions, the displacement history, the particles of each piece; writes
+//! positions, predicted displacements, `scratch.piece_groups`, and the scratch lists
+//! `relative_wind` and `correction`.
+//! Invariant: sums run over the particles in ascending order, so the bits depend neither on the SIMD
+//! level nor on how the pieces came about.
+
+use crate::solver::integrate::momentum::{
+    MAX_FIXED, compute_angular_errors, compute_corrections, fixed_particles, has_collider_impulse,
+    may_add_spin, pivot,
+};
+use crate::solver::integrate::rigid_motion::{Pivot, RigidMotion};
+use crate::solver::self_collide::particle_contacts;
+use crate::solver::world::World;
+use crate::state::pins::Pin;
+use glam::Vec3;
+
+/// Before particle collision: removes the momentum that internal stages added to each piece since
+/// prediction, and joins the pieces that will exchange momentum.
+pub(crate) fn begin_particle_contacts(world: &mut World) {
+    if world.pieces < 2 || world.particle_collision.is_none() {
+        return;
+    }
+    remove_from_pieces(world, Rounding::Corrected);
+    particle_contacts::join_touching_pieces(world);
+}
+
+/// After particle collision: removes the momentum that the corrections since prediction added to
+/// each piece, or to each group of pieces that touch.
+pub(crate) fn end_particle_contacts(world: &mut World) {
+    if world.particle_collision.is_some() && world.scratch.piece_groups.has_joined {
+        remove_from_groups(world);
+    } else {
+        remove_from_pieces(world, Rounding::Exact);
+    }
+}
+
+/// How velocities count the rounding of positions that a correction causes.
+#[derive(Clone, Copy, Debug)]
+enum Rounding {
+    /// As part of the corrections of the substep, which the last correction removes.
+    Corrected,
+    /// Not at all: the predicted displacement takes it.
+    Exact,
+}
+
+fn remove_from_pieces(world: &mut World, rounding: Rounding) {
+    if !compute_corrections(world) {
+        return;
+    }
+    compute_angular_errors(world);
+    let is_pushed = has_collider_impulse(world);
+    let members = core::mem::take(&mut world.scratch.pieces.members);
+    for piece in members.iter() {
+        remove_from(world, piece, MAX_FIXED, is_pushed, rounding);
+    }
+    world.scratch.pieces.members = members;
+}
+
+fn remove_from_groups(world: &mut World) {
+    if !compute_corrections(world) {
+        return;
+    }
+    compute_angular_errors(world);
+    let is_pushed = has_collider_impulse(world);
+    let members = core::mem::take(&mut world.scratch.pieces.members);
+    let mut groups = core::mem::take(&mut world.scratch.piece_groups);
+    groups.sort(&world.mesh, &world.scratch.pieces.label);
+    for (group, piece) in groups.members.iter().zip(members.iter()) {
+        let is_joined = group.len() > piece.len();
+        let max_fixed = if is_joined { 0 } else { MAX_FIXED };
+        remove_from(world, group, max_fixed, is_pushed, Rounding::Exact);
+    }
+    world.scratch.pieces.members = members;
+    world.scratch.piece_groups = groups;
+}
+
+/// Removes the momentum that the corrections since prediction added to some particles, unless more
+/// than `max_fixed` of them are fixed. `is_pushed`: whether a collider may push them. The middles and errors of `compute_angular_errors` are in
+/// `relative_wind` and `correction`.
+fn remove_from(
+    world: &mut World,
+    particles: &[u32],
+    max_fixed: usize,
+    is_pushed: bool,
+    rounding: Rounding,
+) {
+    let all = || particles.iter().map(|i| *i as usize);
+    let (p, scratch) = (&world.particles, &world.scratch);
+    let (fixed, count) = fixed_particles(all(), &p.w);
+    let correction = |i: usize| p.x.get(i) - scratch.predicted.get(i);
+    if count > max_fixed
+        || has_soft_pin(world, particles)
+        || all().all(|i| correction(i) == Vec3::ZERO)
+    {
+        return;
+    }
+    let free = || all().filter(|i| p.w[*i] > 0.0);
+    if is_pushed {
+        if count == 0 && may_add_spin(world) {
+            let points = || free().map(|i| (velocity_origin(world, i), correction(i), p.mass[i]));
+            let motion = RigidMotion::of_points(points);
+            subtract(world, particles, rounding, |world, i| {
+                motion.displacement_at(world.particles.x.get(i))
+            });
+        }
+        return;
+    }
+    let pivot = pivot(p, fixed, count);
+    let translation = match pivot {
+        Pivot::Nothing => mean(free().map(|i| (correction(i), p.mass[i]))),
+        Pivot::Point(_) | Pivot::Axis(..) => Vec3::ZERO,
+    };
+    let (middles, errors) = (&scratch.relative_wind, &scratch.correction);
+    let points = || free().map(|i| (middles.get(i), errors.get(i), p.mass[i]));
+    let motion = RigidMotion::of_points_about(points, pivot).with_translation(translation);
+    subtract(world, particles, rounding, |world, i| {
+        motion.displacement_at(world.scratch.relative_wind.get(i))
+    });
+}
+
+/// Whether a soft pin holds any of some particles.
+fn has_soft_pin(world: &World, particles: &[u32]) -> bool {
+    world.pins.has_soft() && particles.iter().any(|i| world.pins.get(*i).is_some_and(Pin::is_soft))
+}
+
+/// The position that the velocity of a particle counts from: predicted − displacement + last
+/// displacement · (old weight / new weight) [m].
+fn velocity_origin(world: &World, i: usize) -> Vec3 {
+    let (scheme, scratch) = (world.scheme(), &world.scratch);
+    let last = world.particles.displacement.get(i) * (scheme.old_weight / scheme.new_weight);
+    scratch.predicted.get(i) - scratch.displacement.get(i) + last
+}
+
+/// The mean of vectors by mass.
+fn mean(vectors: impl Iterator<Item = (Vec3, f32)>) -> Vec3 {
+    let (sum, total) = vectors.fold((Vec3::ZERO, 0.0), |(sum, total), (vector, mass)| {
+        (sum + vector * mass, total + mass)
+    });
+    if total > 0.0 { sum * (1.0 / total) } else { Vec3::ZERO }
+}
+
+/// Subtracts displacements [m] from the free ones of some particles.
+fn subtract(
+    world: &mut World,
+    particles: &[u32],
+    rounding: Rounding,
+    by: impl Fn(&World, usize) -> Vec3,
+) {
+    let share = world.correction_share();
+    for i in particles.iter().map(|i| *i as usize) {
+        if world.particles.w[i] > 0.0 {
+            let (before, by) = (world.particles.x.get(i), by(world, i));
+            let after = before - by;
+            world.particles.x.set(i, after);
+            if matches!(rounding, Rounding::Exact) {
+                world.scratch.displacement.add(i, ((after - before) + by) * -share);
+            }
+        }
+    }
+}
