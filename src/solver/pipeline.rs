@@ -39,7 +39,7 @@
 
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{
-    forces, momentum, piece_momentum, predict, recover, sleep, time_step, velocities,
+    forces, piece_momentum, predict, recover, sleep, time_step, velocities,
 };
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::rebase;
@@ -175,7 +175,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Pairs, particle_contacts::refresh_pairs(world));
     timed!(world, SelfContacts, piece_momentum::begin_particle_contacts(world));
     timed!(world, SelfContacts, particle_contacts::solve(world));
-    timed!(world, SelfContacts, momentum::remove_internal_momentum(world));
+    timed!(world, SelfContacts, piece_momentum::remove_internal_momentum(world));
     timed!(world, Pairs, collide::broad_phase::refresh(world));
     timed!(world, Contacts, collide::solve(world, number));
     timed!(world, Hold, anchors::project(world, number));

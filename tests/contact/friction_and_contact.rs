@@ -140,7 +140,10 @@ fn a_sheet_rebounds_to_the_height_given_by_restitution() {
 
 #[test]
 fn tangential_and_normal_restitution_scale_the_velocity_after_an_impact() {
-    let settings = Settings { substeps: 1, iterations: 1, damping: 0.0, ..Settings::default() };
+    // Without gravity the velocity stays in the substeps after the impact.
+    let gravity = Vec3::ZERO;
+    let settings =
+        Settings { substeps: 1, iterations: 1, damping: 0.0, gravity, ..Settings::default() };
     let floor = ColliderDesc {
         friction: 0.0,
         restitution: 0.2,

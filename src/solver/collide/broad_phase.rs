@@ -12,11 +12,11 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::math::max;
-use crate::math::simd::leveled;
+use crate::solver::collide::any_moved::any_moved;
 use crate::solver::collide::contact_distance::{
     contact_gap, longest_free_edge, needs_triangle_tests, smoothing,
 };
-use crate::solver::collide::long_triangles::{self, longest_edge_squared};
+use crate::solver::collide::long_triangles::longest_edge_squared;
 use crate::solver::collide::mid_phase::{CandidateRange, PairSearch};
 use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds};
 use crate::solver::world::World;
@@ -24,6 +24,10 @@ use glam::Vec3;
 
 /// How far particles may move before a rebuild, in mean edge lengths at rest.
 const MARGIN: f32 = 0.5;
+
+/// Edges are measured if a collider comes this near to the bounds of the cloth, in mean edge lengths
+/// at rest.
+const NEAR: f32 = 2.0;
 
 /// The fraction of the margin at which a rebuild is due; the rest covers rounding.
 const REBUILD_AT: f32 = 0.95;
@@ -79,7 +83,21 @@ pub(crate) fn refresh(world: &mut World) {
     if is_stale || has_particle_moved(world, margin * REBUILD_AT) {
         rebuild(world, margin);
     }
-    long_triangles::refresh(world);
+    refresh_long_triangles(world);
+}
+
+/// Measures the edges of triangles if their list is not current.
+fn refresh_long_triangles(world: &mut World) {
+    let contacts = &mut world.scratch.contacts;
+    if contacts.long.is_current() {
+        return;
+    }
+    let x = &world.particles.x;
+    let bounds = Aabb::from_points(x.iter());
+    let entries = contacts.nearby.entries.iter();
+    let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
+    let limit = near.fold(f32::INFINITY, |least, entry| -max(-entry.longest_free_edge, -least));
+    contacts.long.refresh(limit, x, &world.mesh.triangles, world.level);
 }
 
 /// Returns whether a particle is farther than `limit` [m] from where it was at the last rebuild.
@@ -89,31 +107,6 @@ fn has_particle_moved(world: &World, limit: f32) -> bool {
     let x = world.particles.x.slices();
     any_moved(world.level, x, positions_at_rebuild, limit * limit, &mut has_moved);
     has_moved
-}
-
-leveled! {
-    /// Sets `has_moved` if the squared distance of two positions is above `limit2` [m²] or NaN.
-    pub(super) fn any_moved(x: [&[f32]; 3], from: [&[f32]; 3], limit2: f32, has_moved: &mut bool)
-        = any_moved_lanes
-}
-
-#[inline(always)]
-fn any_moved_lanes(
-    [x, y, z]: [&[f32]; 3],
-    [u, v, w]: [&[f32]; 3],
-    limit2: f32,
-    has_moved: &mut bool,
-) {
-    let mut found = 0_u32;
-    let now = x.iter().zip(y).zip(z);
-    let then = u.iter().zip(v).zip(w);
-    for (((x, y), z), ((u, v), w)) in now.zip(then) {
-        let (x, y, z) = (x - u, y - v, z - w);
-        // NaN counts as moved.
-        let moved2 = x * x + y * y + z * z;
-        found |= u32::from(moved2.is_nan() | (moved2 > limit2));
-    }
-    *has_moved |= found != 0;
 }
 
 /// Rebuilds the blocks and candidate pairs of all colliders, to hold until a particle moves by

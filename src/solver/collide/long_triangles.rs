@@ -10,21 +10,15 @@
 //! Reads positions and the mesh; writes the list.
 //! Invariant: the list depends only on the positions at these times and on the colliders.
 
-use crate::geometry::aabb::Aabb;
 use crate::math::columns::Columns;
 use crate::math::max;
 use crate::math::simd::Level;
-use crate::solver::collide::broad_phase::any_moved;
+use crate::solver::collide::any_moved::any_moved;
 use crate::solver::collide::collider_contact::ColliderContact;
-use crate::solver::world::World;
 use glam::Vec3;
 
 /// The fraction of a bound that counts; the rest covers rounding.
 const SAFETY: f32 = 0.99;
-
-/// Edges are measured if a collider comes this near to the bounds of the cloth, in mean edge
-/// lengths.
-const NEAR: f32 = 2.0;
 
 /// Edges are measured again if a collider has pushed a particle farther than this, in mean edge
 /// lengths.
@@ -57,6 +51,22 @@ impl LongTriangles {
     /// particles far.
     pub fn invalidate(&mut self) {
         self.is_current = false;
+    }
+
+    /// Returns whether the list needs no refresh.
+    pub fn is_current(&self) -> bool {
+        self.is_current
+    }
+
+    /// Lists the triangles with an edge above `limit` [m].
+    pub fn refresh(&mut self, limit: f32, x: &Columns, triangles: &[[u32; 3]], level: Level) {
+        self.is_current = true;
+        self.limit = limit;
+        if limit < f32::INFINITY {
+            self.measure(x, triangles, level);
+        } else {
+            self.list.clear();
+        }
     }
 
     /// Returns the indices of the triangles, in ascending order.
@@ -107,24 +117,6 @@ impl LongTriangles {
             }
         }
         self.longest = longest2.sqrt();
-    }
-}
-
-/// Measures the edges if the list is not current.
-pub(super) fn refresh(world: &mut World) {
-    let contacts = &mut world.scratch.contacts;
-    let (long, x) = (&mut contacts.long, &world.particles.x);
-    if core::mem::replace(&mut long.is_current, true) {
-        return;
-    }
-    let bounds = Aabb::from_points(x.iter());
-    let entries = contacts.nearby.entries.iter();
-    let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
-    long.limit = near.fold(f32::INFINITY, |least, entry| -max(-entry.longest_free_edge, -least));
-    if long.limit < f32::INFINITY {
-        long.measure(x, &world.mesh.triangles, world.level);
-    } else {
-        long.list.clear();
     }
 }
 

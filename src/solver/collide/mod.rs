@@ -18,6 +18,7 @@
 //! ends it inside. Each round tests particles last, so a correction of a triangle does not leave a
 //! particle inside.
 
+mod any_moved;
 mod body_motion;
 pub(crate) mod broad_phase;
 pub(crate) mod collider_contact;

@@ -38,7 +38,6 @@ use crate::math::simd::leveled;
 use crate::math::wide4::Float4;
 use crate::solver::bend;
 use crate::solver::collide::collider_contact::ColliderContact;
-use crate::solver::integrate::piece_momentum;
 use crate::solver::integrate::rigid_motion::{Component, FreeParticles, Pivot, RigidMotion};
 use crate::solver::particle_stage::interleaved;
 use crate::solver::world::World;
@@ -86,11 +85,8 @@ pub(super) fn pivot(p: &Particles, fixed: [usize; 3], count: usize) -> Pivot {
     }
 }
 
-/// Removes the momentum that internal stages added since prediction, from each piece.
-pub(crate) fn remove_internal_momentum(world: &mut World) {
-    if world.pieces != 1 {
-        return piece_momentum::end_particle_contacts(world);
-    }
+/// Removes the momentum that internal stages added since prediction to cloth of one piece.
+pub(super) fn remove_internal_momentum(world: &mut World) {
     if world.pins.has_soft() {
         return;
     }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Stretch ▶ Bend ▶ Limit      each piece keeps its momentum           begin_particle_contacts
-//! particle collision          pieces that touch keep their sum        end_particle_contacts
+//! particle collision          pieces that touch keep their sum        remove_internal_momentum
 //! ```
 //! Internal stages exchange no momentum between pieces, so each piece is corrected by itself, by the
 //! rules of `momentum` for a cloth of one piece. Contacts do exchange momentum: pieces whose
@@ -16,8 +16,8 @@
 //! level nor on how the pieces came about.
 
 use crate::solver::integrate::momentum::{
-    MAX_FIXED, compute_angular_errors, compute_corrections, fixed_particles, has_collider_impulse,
-    may_add_spin, pivot,
+    self, MAX_FIXED, compute_angular_errors, compute_corrections, fixed_particles,
+    has_collider_impulse, may_add_spin, pivot,
 };
 use crate::solver::integrate::rigid_motion::{Pivot, RigidMotion};
 use crate::solver::self_collide::particle_contacts;
@@ -37,8 +37,10 @@ pub(crate) fn begin_particle_contacts(world: &mut World) {
 
 /// After particle collision: removes the momentum that the corrections since prediction added to
 /// each piece, or to each group of pieces that touch.
-pub(crate) fn end_particle_contacts(world: &mut World) {
-    if world.particle_collision.is_some() && world.scratch.piece_groups.has_joined {
+pub(crate) fn remove_internal_momentum(world: &mut World) {
+    if world.pieces == 1 {
+        momentum::remove_internal_momentum(world);
+    } else if world.particle_collision.is_some() && world.scratch.piece_groups.has_joined {
         remove_from_groups(world);
     } else {
         remove_from_pieces(world, Rounding::Exact);
