@@ -147,10 +147,12 @@ fn edge_contact(
         let fraction = edge_crossing(edge, end, normal)?;
         let from = start[0] + (start[1] - start[0]) * fraction;
         let start_height = (from - edge.ends[0]).dot(normal);
-        // An edge that has turned was not below the plane through the feature that it is below now.
+        // An edge that has turned fast was not below the plane that it is below now.
         let start_height = match outward_normal(edge, start) {
-            Some(own) => max((start[0] - edge.ends[0]).dot(own), start_height),
-            None => start_height,
+            Some(own) if start_height < -query.gap => {
+                max((start[0] - edge.ends[0]).dot(own), start_height)
+            }
+            _ => start_height,
         };
         if edge.sides == FeatureSides::Boundary && start_height <= 0.0 {
             return None;
@@ -230,12 +232,15 @@ fn vertex_contact(
         }
         let weights = projected_weights(end, vertex.position, normal)?;
         let start_height = (interpolate(start, weights) - vertex.position).dot(normal);
-        // A triangle that has turned was not below the plane that it is below now.
+        // A triangle that has turned fast was not below the plane that it is below now.
         let [p, q, r] = start.map(|x| x - vertex.position);
         let own = (q - p).cross(r - p);
         let length = own.length().copysign(own.dot(vertex.outward));
-        let start_height =
-            if length.abs() > TINY { max(p.dot(own) / length, start_height) } else { start_height };
+        let start_height = if start_height < -query.gap && length.abs() > TINY {
+            max(p.dot(own) / length, start_height)
+        } else {
+            start_height
+        };
         let depenetration = particles.depenetration;
         let gap = query.gap;
         let penetration = depenetration.penetration(normal, gap, start_height, height)?;
