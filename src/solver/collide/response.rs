@@ -10,6 +10,11 @@
 //! which must not look back across it; resting and sliding particles keep their history along the
 //! surface.
 //!
+//! The impulse on the collider is what the particle will have gained, see [`final_velocity`]:
+//!
+//! ```text
+//! m (final velocity after the response − before it + correction · new_weight / (h (1 − extrapolation)))
+//! ```
 //! Reads the contacts of the substep, positions, predicted positions and displacements; writes
 //! velocities, history and `scratch.contacts.impulses`.
 //! Invariant: positions stay as they are.
@@ -25,15 +30,15 @@ use glam::Vec3;
 struct ResponseParameters {
     /// The length of the substep [s].
     h: f32,
+    /// The acceleration that a new history contains [m/s²].
     gravity: Vec3,
+    /// See [`final_velocity`].
+    extrapolation: f32,
     /// Slower approaches are resting or sliding contacts [m/s].
     resting_speed: f32,
     /// The factor that damping applies to velocities and history in this substep.
     decay: f32,
-    /// The momentum per kilogram and metre of correction that keeps a particle at its corrected
-    /// position [1/s].
-    momentum_per_correction: f32,
-    /// The velocity that a particle got per metre of correction [1/s].
+    /// The final velocity that a particle got per metre of correction [1/s].
     velocity_per_correction: f32,
 }
 
@@ -43,11 +48,12 @@ pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
     let (scheme, gravity) = (world.scheme(), world.settings.gravity);
     let parameters = ResponseParameters {
         h: scheme.h,
-        gravity,
+        // BDF1 extrapolates nothing.
+        gravity: if scheme.extrapolation > 0.0 { gravity } else { Vec3::ZERO },
+        extrapolation: scheme.extrapolation,
         resting_speed: 2.0 * scheme.h * gravity.length(),
         decay,
-        momentum_per_correction: scheme.h / (scheme.velocity_step * scheme.velocity_step),
-        velocity_per_correction: scheme.new_weight / scheme.h,
+        velocity_per_correction: scheme.new_weight / (scheme.h * (1.0 - scheme.extrapolation)),
     };
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     for contact in &scratch.contacts.collider_contacts {
@@ -61,6 +67,13 @@ pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
     }
 }
 
+/// Returns the velocity that a particle reaches by its history alone: each substep leaves it the
+/// fraction `extrapolation` of its last change of velocity.
+fn final_velocity(p: &Particles, i: usize, extrapolation: f32) -> Vec3 {
+    let v = p.v.get(i);
+    v + (p.v_extrapolated.get(i) - v) * (1.0 / (1.0 - extrapolation))
+}
+
 /// Resolves the velocity of one contact and returns the momentum that the particle got [kg m/s].
 /// `step` is the displacement of the particle in this substep [m].
 fn resolve_contact(
@@ -70,6 +83,7 @@ fn resolve_contact(
     step: Vec3,
     parameters: ResponseParameters,
 ) -> Vec3 {
+    let before = final_velocity(p, i, parameters.extrapolation);
     let (n, surface, h) = (contact.normal, contact.surface_velocity, parameters.h);
     let tangential = |v: Vec3| (v - n * v.dot(n)) * contact.tangential_restitution;
     let step = step - surface * h;
@@ -80,14 +94,14 @@ fn resolve_contact(
     if -approach > parameters.resting_speed {
         let v = surface + tangential(step * (1.0 / h)) - n * (approach * contact.restitution);
         let v = weighted(p.v.get(i), v);
-        let change = v - p.v.get(i);
         p.set_motion(i, p.x.get(i), v, parameters.gravity, h);
-        return (change + contact.correction * parameters.velocity_per_correction) * p.mass[i];
+    } else {
+        let sliding = |v: Vec3| weighted(v, surface + tangential(v - surface));
+        p.v.set(i, sliding(p.v.get(i)));
+        p.v_extrapolated.set(i, sliding(p.v_extrapolated.get(i)));
+        let displacement = surface * h + tangential(step * parameters.decay);
+        p.displacement.set(i, weighted(p.displacement.get(i), displacement));
     }
-    let sliding = |v: Vec3| weighted(v, surface + tangential(v - surface));
-    p.v.set(i, sliding(p.v.get(i)));
-    p.v_extrapolated.set(i, sliding(p.v_extrapolated.get(i)));
-    let displacement = surface * h + tangential(step * parameters.decay);
-    p.displacement.set(i, weighted(p.displacement.get(i), displacement));
-    contact.correction * (parameters.momentum_per_correction * p.mass[i])
+    let change = final_velocity(p, i, parameters.extrapolation) - before;
+    (change + contact.correction * parameters.velocity_per_correction) * p.mass[i]
 }
