@@ -19,6 +19,7 @@ use crate::solver::collide::contact_distance::{
 use crate::solver::collide::long_triangles::longest_edge_squared;
 use crate::solver::collide::mid_phase::{CandidateRange, PairSearch};
 use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds};
+use crate::solver::collide::particle_bounds;
 use crate::solver::world::World;
 use glam::Vec3;
 
@@ -93,7 +94,7 @@ fn refresh_long_triangles(world: &mut World) {
         return;
     }
     let x = &world.particles.x;
-    let bounds = Aabb::from_points(x.iter());
+    let bounds = particle_bounds::of_columns(world.level, x);
     let entries = contacts.nearby.entries.iter();
     let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
     let limit = near.fold(f32::INFINITY, |least, entry| -max(-entry.longest_free_edge, -least));

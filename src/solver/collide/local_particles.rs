@@ -152,6 +152,7 @@ impl LocalParticles<'_> {
 
     /// Returns the correction of a point of a triangle that moved from `start` to `end` [m]: out
     /// of the penetration, and back along the surface by friction.
+    #[inline]
     pub fn correction(
         &self,
         (corners, weights): ([usize; 3], [f32; 3]),

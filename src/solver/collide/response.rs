@@ -32,8 +32,9 @@ struct ResponseParameters {
     h: f32,
     /// The acceleration that a new history contains [m/s²].
     gravity: Vec3,
-    /// See [`final_velocity`].
-    extrapolation: f32,
+    /// The factor of a velocity change that is still to come, 1 / (1 − extrapolation); see
+    /// [`final_velocity`].
+    remaining: f32,
     /// Slower approaches are resting or sliding contacts [m/s].
     resting_speed: f32,
     /// The factor that damping applies to velocities and history in this substep.
@@ -46,14 +47,15 @@ struct ResponseParameters {
 /// damping applied to velocities in this substep.
 pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
     let (scheme, gravity) = (world.scheme(), world.settings.gravity);
+    let remaining = 1.0 / (1.0 - scheme.extrapolation);
     let parameters = ResponseParameters {
         h: scheme.h,
         // BDF1 extrapolates nothing.
         gravity: if scheme.extrapolation > 0.0 { gravity } else { Vec3::ZERO },
-        extrapolation: scheme.extrapolation,
+        remaining,
         resting_speed: 2.0 * scheme.h * gravity.length(),
         decay,
-        velocity_per_correction: scheme.new_weight / (scheme.h * (1.0 - scheme.extrapolation)),
+        velocity_per_correction: scheme.new_weight / scheme.h * remaining,
     };
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     for contact in &scratch.contacts.collider_contacts {
@@ -67,11 +69,11 @@ pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
     }
 }
 
-/// Returns the velocity that a particle reaches by its history alone: each substep leaves it the
-/// fraction `extrapolation` of its last change of velocity.
-fn final_velocity(p: &Particles, i: usize, extrapolation: f32) -> Vec3 {
-    let v = p.v.get(i);
-    v + (p.v_extrapolated.get(i) - v) * (1.0 / (1.0 - extrapolation))
+/// Returns the velocity that a particle with this velocity and extrapolated velocity reaches by its
+/// history alone: each substep leaves it the fraction `extrapolation` of its last change of velocity.
+#[inline(always)]
+fn final_velocity([v, v_extrapolated]: [Vec3; 2], remaining: f32) -> Vec3 {
+    v + (v_extrapolated - v) * remaining
 }
 
 /// Resolves the velocity of one contact and returns the momentum that the particle got [kg m/s].
@@ -83,7 +85,6 @@ fn resolve_contact(
     step: Vec3,
     parameters: ResponseParameters,
 ) -> Vec3 {
-    let before = final_velocity(p, i, parameters.extrapolation);
     let (n, surface, h) = (contact.normal, contact.surface_velocity, parameters.h);
     let tangential = |v: Vec3| (v - n * v.dot(n)) * contact.tangential_restitution;
     let step = step - surface * h;
@@ -91,17 +92,20 @@ fn resolve_contact(
     let weighted = |old: Vec3, new: Vec3| {
         if contact.weight < 1.0 { old + (new - old) * contact.weight } else { new }
     };
-    if -approach > parameters.resting_speed {
+    let before = [p.v.get(i), p.v_extrapolated.get(i)];
+    let after = if -approach > parameters.resting_speed {
         let v = surface + tangential(step * (1.0 / h)) - n * (approach * contact.restitution);
-        let v = weighted(p.v.get(i), v);
-        p.set_motion(i, p.x.get(i), v, parameters.gravity, h);
+        p.set_motion(i, p.x.get(i), weighted(before[0], v), parameters.gravity, h);
+        [p.v.get(i), p.v_extrapolated.get(i)]
     } else {
-        let sliding = |v: Vec3| weighted(v, surface + tangential(v - surface));
-        p.v.set(i, sliding(p.v.get(i)));
-        p.v_extrapolated.set(i, sliding(p.v_extrapolated.get(i)));
+        let after = before.map(|v| weighted(v, surface + tangential(v - surface)));
+        p.v.set(i, after[0]);
+        p.v_extrapolated.set(i, after[1]);
         let displacement = surface * h + tangential(step * parameters.decay);
         p.displacement.set(i, weighted(p.displacement.get(i), displacement));
-    }
-    let change = final_velocity(p, i, parameters.extrapolation) - before;
+        after
+    };
+    let change =
+        final_velocity(after, parameters.remaining) - final_velocity(before, parameters.remaining);
     (change + contact.correction * parameters.velocity_per_correction) * p.mass[i]
 }
