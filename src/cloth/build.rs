@@ -17,6 +17,7 @@ use crate::arena::Arena;
 use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::error::Result;
 use crate::geometry::triangle::corner_areas;
+use crate::math::reserve::ReserveTotal;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid;
@@ -316,7 +317,7 @@ fn mean_edge(mesh: &Mesh, rest: &[Vec3]) -> f32 {
 impl World {
     /// Reserves every list that tears may extend for `capacity` particles.
     pub(crate) fn reserve(&mut self, capacity: usize) {
-        let reserve = |list: &mut Vec<u32>| list.reserve_exact(capacity.saturating_sub(list.len()));
+        let reserve = |list: &mut Vec<u32>| list.reserve_total(capacity);
         reserve(&mut self.mesh.source);
         reserve(&mut self.mesh.corner_of);
         if let Some(seams) = &mut self.seams {
@@ -324,7 +325,7 @@ impl World {
         }
         self.particles.reserve(capacity);
         self.mass_scales.reserve(capacity);
-        self.crack_tips.reserve_exact(capacity.saturating_sub(self.crack_tips.len()));
+        self.crack_tips.reserve_total(capacity);
         self.pins.reserve(capacity);
         self.events.reserve();
         let opened_edges = max_opened_edges(&self.mesh, capacity.max(self.mesh.vertex_count()));
@@ -358,7 +359,7 @@ impl World {
         self.constraints.reserve(opened_edges, self.capacity());
         self.tethers.reserve(self.capacity(), self.mesh.triangles.len());
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
-        scratch.piece_stack.reserve_exact(triangles.saturating_sub(scratch.piece_stack.len()));
+        scratch.piece_stack.reserve_total(triangles);
         scratch.pieces.reserve();
         scratch.piece_groups.reserve(triangles);
     }

@@ -9,6 +9,7 @@
 //! Reads and writes like a slice; grows like a `Vec`. It serialises like a `Vec<f32>`.
 //! Invariant: numbers beyond `len` in the last line are unspecified and never read.
 
+use crate::math::reserve::ReserveTotal;
 use core::ops::{Deref, DerefMut};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -48,7 +49,7 @@ impl Column {
     /// Allocates for `capacity` numbers in total.
     pub fn reserve(&mut self, capacity: usize) {
         let lines = capacity.div_ceil(LINE_LEN);
-        self.lines.reserve_exact(lines.saturating_sub(self.lines.len()));
+        self.lines.reserve_total(lines);
     }
 
     pub fn clear(&mut self) {

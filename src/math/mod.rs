@@ -13,6 +13,7 @@ pub(crate) mod columns;
 pub(crate) mod float_env;
 pub(crate) mod hasher;
 pub(crate) mod pack;
+pub(crate) mod reserve;
 pub(crate) mod shared_points;
 pub(crate) mod simd;
 pub(crate) mod sort;

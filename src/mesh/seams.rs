@@ -15,6 +15,7 @@
 //!
 //! Invariant: `particles[triangles[t][k]]` is the particle at corner k of triangle t.
 
+use crate::math::reserve::ReserveTotal;
 use crate::math::sort::sort;
 use crate::mesh::split_edge::{CutSite, EdgeSplit};
 use crate::mesh::{Corner, Mesh, next_corner, prev_corner, triangle_of};
@@ -93,7 +94,7 @@ impl Seams {
     /// Allocates up to the capacity. A clone needs this, since cloning drops spare capacity.
     pub fn reserve(&mut self) {
         for list in [&mut self.particles, &mut self.sites, &mut self.corner_counts] {
-            list.reserve_exact(self.capacity.saturating_sub(list.len()));
+            list.reserve_total(self.capacity);
         }
     }
 

@@ -9,6 +9,7 @@
 //! Reads lists of particles per item; writes colours, or groups and an order.
 //!
 //! Invariant: the result depends only on the order of the items.
+use crate::math::reserve::ReserveTotal;
 use core::ops::Range;
 
 /// Returns a colour per pair: the lowest that neither particle has yet, in the order of the list.
@@ -75,9 +76,9 @@ pub(crate) struct Coloring {
 impl Coloring {
     /// Allocates for `item_count` items and `particles` particles.
     pub fn reserve(&mut self, item_count: usize, particles: usize) {
-        self.taken.reserve_exact(particles.saturating_sub(self.taken.len()));
-        self.groups.reserve_exact(item_count.saturating_sub(self.groups.len()));
-        self.order.reserve_exact(item_count.saturating_sub(self.order.len()));
+        self.taken.reserve_total(particles);
+        self.groups.reserve_total(item_count);
+        self.order.reserve_total(item_count);
     }
 
     /// Allocated bytes.

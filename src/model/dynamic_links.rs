@@ -11,6 +11,7 @@
 //! Invariant: after `update_site` for every changed site and one `rebuild_sparse`, all links agree
 //! with the mesh.
 
+use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::constraints::{Constraints, edge_of};
 use crate::model::links::{LinkSpec, LinkSupport, Links};
@@ -33,7 +34,7 @@ impl Constraints {
         self.coloring.reserve(self.dynamic.len() + count, sites);
         self.dynamic_sites.reserve_exact(count);
         self.dynamic_next.reserve_exact(count);
-        self.dynamic_head.reserve_exact(sites.saturating_sub(self.dynamic_head.len()));
+        self.dynamic_head.reserve_total(sites);
         if let Some(rows) = &mut self.rows {
             rows.reserve();
         }

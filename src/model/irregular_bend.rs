@@ -8,6 +8,7 @@
 //!
 //! Invariant: within a coloured group no particle appears twice.
 
+use crate::math::reserve::ReserveTotal;
 use crate::mesh::Mesh;
 use crate::model::coloring::{ColorGroup, Coloring, MAX_GROUPS};
 use crate::model::links::{LinkSupport, Links, ThreadDirection};
@@ -32,9 +33,9 @@ impl IrregularBends {
     /// Allocates for `count` bends and `particles` particles.
     pub fn reserve(&mut self, count: usize, particles: usize) {
         let lists = [&mut self.a, &mut self.middle, &mut self.b, &mut self.element];
-        lists.into_iter().for_each(|list| list.reserve_exact(count.saturating_sub(list.len())));
-        self.area_fraction.reserve_exact(count.saturating_sub(self.area_fraction.len()));
-        self.groups.reserve_exact(MAX_GROUPS.saturating_sub(self.groups.len()));
+        lists.into_iter().for_each(|list| list.reserve_total(count));
+        self.area_fraction.reserve_total(count);
+        self.groups.reserve_total(MAX_GROUPS);
         self.coloring.reserve(count, particles);
     }
 

@@ -1,6 +1,7 @@
 //! Sorted set of link numbers: links that left their place in a regular layout and are still
 //! active.
 
+use crate::math::reserve::ReserveTotal;
 use core::ops::Range;
 
 /// Link numbers, ascending.
@@ -12,7 +13,7 @@ pub(crate) struct LinkSet {
 impl LinkSet {
     /// Allocates for `count` links in all.
     pub fn reserve(&mut self, count: usize) {
-        self.links.reserve_exact(count.saturating_sub(self.links.len()));
+        self.links.reserve_total(count);
     }
 
     /// Adds or removes a link.

@@ -5,6 +5,7 @@
 //!
 //! Invariant: current after `rebuild`, which must run whenever the tethers change.
 
+use crate::math::reserve::ReserveTotal;
 use crate::math::sort::sort_by;
 use crate::model::links::Links;
 use crate::model::tethers::Tethers;
@@ -20,8 +21,8 @@ pub(crate) struct PinOrder {
 impl PinOrder {
     /// Allocates for `particles` and `links` in all.
     pub fn reserve(&mut self, particles: usize, links: usize) {
-        self.order.reserve_exact(links.saturating_sub(self.order.len()));
-        self.distance.reserve_exact(particles.saturating_sub(self.distance.len()));
+        self.order.reserve_total(links);
+        self.distance.reserve_total(particles);
     }
 
     /// Sorts the links by the distances that the tethers measured.

@@ -5,6 +5,7 @@
 //!
 //! Invariant: within a coloured group no particle appears twice.
 
+use crate::math::reserve::ReserveTotal;
 use crate::model::coloring::{ColorGroup, Coloring, MAX_GROUPS};
 use crate::model::links::{LinkKind, Links};
 use core::ops::Range;
@@ -37,7 +38,7 @@ impl SparseLinks {
         for list in [&mut self.rest, w_a, w_b] {
             list.reserve_exact(additional(list.len()));
         }
-        self.groups.reserve_exact(MAX_GROUPS.saturating_sub(self.groups.len()));
+        self.groups.reserve_total(MAX_GROUPS);
     }
 
     /// Allocated bytes.

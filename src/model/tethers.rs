@@ -20,6 +20,7 @@
 //!
 //! Invariant: `length` is infinite exactly if no path leads to a pin.
 
+use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Fan, Mesh, NONE, triangle_of};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -77,16 +78,16 @@ impl Tethers {
     /// Allocates for `capacity` particles and `triangles` triangles in all.
     pub fn reserve(&mut self, capacity: usize, triangles: usize) {
         for set in &mut self.sets {
-            set.pin.reserve_exact(capacity.saturating_sub(set.pin.len()));
-            set.length.reserve_exact(capacity.saturating_sub(set.length.len()));
-            set.via_triangle.reserve_exact(capacity.saturating_sub(set.via_triangle.len()));
+            set.pin.reserve_total(capacity);
+            set.length.reserve_total(capacity);
+            set.via_triangle.reserve_total(capacity);
         }
         let TetherScratch { fan, invalid, is_affected, affected } = &mut self.scratch;
         fan.corners.reserve(64);
         fan.ring.reserve(65);
-        invalid.reserve_exact(capacity.saturating_sub(invalid.len()));
-        is_affected.reserve_exact(triangles.saturating_sub(is_affected.len()));
-        affected.reserve_exact(triangles.saturating_sub(affected.len()));
+        invalid.reserve_total(capacity);
+        is_affected.reserve_total(triangles);
+        affected.reserve_total(triangles);
     }
 
     /// Allocated bytes.

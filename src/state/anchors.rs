@@ -14,6 +14,7 @@
 //!
 //! Invariant: the list is sorted by particle, so that the order of processing comes from the mesh.
 
+use crate::math::reserve::ReserveTotal;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -177,7 +178,7 @@ impl AnchorConstraints {
     /// Allocates for `capacity` anchors in all, if there are any.
     pub fn reserve(&mut self, capacity: usize) {
         if !self.list.is_empty() {
-            self.list.reserve_exact(capacity.saturating_sub(self.list.len()));
+            self.list.reserve_total(capacity);
         }
     }
 

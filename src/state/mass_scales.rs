@@ -2,6 +2,7 @@
 //!
 //! Invariant: the list is empty (all factors are 1) or has one entry per particle.
 
+use crate::math::reserve::ReserveTotal;
 use serde::{Deserialize, Serialize};
 
 /// A factor per particle; empty if all are 1.
@@ -14,7 +15,7 @@ impl MassScales {
     /// Allocates for `capacity` particles in all, if there are factors.
     pub fn reserve(&mut self, capacity: usize) {
         if !self.list.is_empty() {
-            self.list.reserve_exact(capacity.saturating_sub(self.list.len()));
+            self.list.reserve_total(capacity);
         }
     }
 

@@ -9,6 +9,7 @@
 //! Invariant: every list has one entry per particle. Field order is part of the save format.
 
 use crate::math::columns::Columns;
+use crate::math::reserve::ReserveTotal;
 use crate::math::{lerp, saturate};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -71,7 +72,7 @@ impl Particles {
             columns.reserve(capacity);
         }
         for list in [&mut self.mass, &mut self.w] {
-            list.reserve_exact(capacity.saturating_sub(list.len()));
+            list.reserve_total(capacity);
         }
     }
 

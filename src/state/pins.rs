@@ -5,6 +5,7 @@
 //!
 //! Invariant: the list is sorted by particle, so that the order of processing comes from the mesh.
 
+use crate::math::reserve::ReserveTotal;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -69,7 +70,7 @@ pub(crate) struct Pins {
 impl Pins {
     /// Allocates for `capacity` pins in all.
     pub fn reserve(&mut self, capacity: usize) {
-        self.list.reserve_exact(capacity.saturating_sub(self.list.len()));
+        self.list.reserve_total(capacity);
     }
 
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &Pin> + Clone {

@@ -6,6 +6,7 @@
 //! Invariant: after [`ContactScratch::reserve`] no stage allocates, except that a list of candidate
 //! pairs grows when there are more pairs than ever before.
 
+use crate::math::reserve::ReserveTotal;
 use crate::solver::collide::body_motion::BodyMotion;
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::long_pairs::LongPairs;
@@ -55,17 +56,17 @@ impl ContactScratch {
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         self.nearby.reserve(bodies, particles, triangles);
         self.long.reserve(particles, triangles);
-        self.body_motions.reserve_exact(bodies.saturating_sub(self.body_motions.len()));
+        self.body_motions.reserve_total(bodies);
         let contacts = particles.saturating_sub(self.collider_contacts.len());
         self.collider_contacts.reserve_exact(contacts);
-        self.projections.reserve_exact(particles.saturating_sub(self.projections.len()));
-        self.projected.reserve_exact(particles.saturating_sub(self.projected.len()));
-        self.impulses.reserve_exact(bodies.saturating_sub(self.impulses.len()));
-        self.clearance.reserve_exact(particles.saturating_sub(self.clearance.len()));
+        self.projections.reserve_total(particles);
+        self.projected.reserve_total(particles);
+        self.impulses.reserve_total(bodies);
+        self.clearance.reserve_total(particles);
         self.pushes.reserve(particles);
         self.close_pairs.reserve(triangles);
         self.long_pairs.reserve(triangles);
-        self.local_positions.reserve_exact(particles.saturating_sub(self.local_positions.len()));
+        self.local_positions.reserve_total(particles);
         self.contact_slots.resize(particles, 0);
     }
 }

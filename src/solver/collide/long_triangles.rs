@@ -12,6 +12,7 @@
 
 use crate::math::columns::Columns;
 use crate::math::max;
+use crate::math::reserve::ReserveTotal;
 use crate::math::simd::Level;
 use crate::solver::collide::any_moved::any_moved;
 use crate::solver::collide::collider_contact::ColliderContact;
@@ -43,7 +44,7 @@ pub(crate) struct LongTriangles {
 impl LongTriangles {
     /// Allocates for `particles` particles and `triangles` triangles.
     pub fn reserve(&mut self, particles: usize, triangles: usize) {
-        self.list.reserve_exact(triangles.saturating_sub(self.list.len()));
+        self.list.reserve_total(triangles);
         self.measured.reserve(particles);
     }
 

@@ -20,6 +20,7 @@ use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{EdgeFeature, Feature, Features, ShapeFeatures, SurfaceBend};
 use crate::math::max;
+use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Mesh, NONE};
 use glam::Vec3;
 
@@ -148,7 +149,7 @@ impl ColliderPairs {
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         let few = bodies.min(4);
         fn reserve<T>(list: &mut Vec<T>, count: usize) {
-            list.reserve_exact(count.saturating_sub(list.len()));
+            list.reserve_total(count);
         }
         reserve(&mut self.edges, 4 * few * triangles);
         reserve(&mut self.vertices, few * triangles);

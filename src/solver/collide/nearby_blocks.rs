@@ -15,6 +15,7 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::SurfaceBend;
 use crate::math::columns::Columns;
 use crate::math::max;
+use crate::math::reserve::ReserveTotal;
 use crate::solver::collide::mid_phase::{CandidateRange, Candidates, ColliderPairs};
 use crate::state::colliders::ColliderBody;
 use crate::state::pose::Pose;
@@ -94,11 +95,11 @@ impl NearbyBlocks {
         let particle_blocks = particles.div_ceil(BLOCK);
         let triangle_blocks = triangles.div_ceil(BLOCK);
         let all = bodies * (particle_blocks + triangle_blocks);
-        self.entries.reserve_exact(bodies.saturating_sub(self.entries.len()));
-        self.blocks.reserve_exact(all.saturating_sub(self.blocks.len()));
+        self.entries.reserve_total(bodies);
+        self.blocks.reserve_total(all);
         self.positions_at_rebuild.reserve(particles);
         let reserve = |list: &mut Vec<Aabb>, count: usize| {
-            list.reserve_exact(count.saturating_sub(list.len()));
+            list.reserve_total(count);
         };
         reserve(&mut self.particle_bounds, particle_blocks);
         reserve(&mut self.triangle_bounds, triangle_blocks);

@@ -13,6 +13,7 @@
 //! [`LocalParticles`].
 //! Invariant: particles are moved in the order of their first contact.
 
+use crate::math::reserve::ReserveTotal;
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
 use glam::Vec3;
 
@@ -48,8 +49,8 @@ impl AccumulatedPush {
 impl PushAccumulator {
     /// Allocates for `particles` particles.
     pub fn reserve(&mut self, particles: usize) {
-        self.sums.reserve_exact(particles.saturating_sub(self.sums.len()));
-        self.pushed.reserve_exact(particles.saturating_sub(self.pushed.len()));
+        self.sums.reserve_total(particles);
+        self.pushed.reserve_total(particles);
     }
 
     /// From now on corners are not corrected but go back to where the substep began, if a

@@ -14,6 +14,7 @@
 //! Invariant: this runs after all other constraints of a substep, so the bound of an anchor holds
 //! whatever else pulls at the particle. Pinned and grabbed particles ignore their anchors.
 
+use crate::math::reserve::ReserveTotal;
 use crate::solver::world::World;
 
 /// Projects all anchor constraints, with the anchors where they are after substep `number`.
@@ -71,7 +72,7 @@ impl World {
         self.anchors.reserve(capacity);
         if !self.anchors.is_empty() {
             let moved = &mut self.scratch.anchor_moved;
-            moved.reserve_exact(capacity.saturating_sub(moved.len()));
+            moved.reserve_total(capacity);
         }
     }
 }

@@ -9,6 +9,7 @@
 //! date.
 
 use crate::math::columns::Columns;
+use crate::math::reserve::ReserveTotal;
 use crate::solver::particle_stage::access::ParticleAccess;
 use crate::state::particles::Particles;
 use glam::Vec3;
@@ -27,8 +28,8 @@ pub(crate) struct InterleavedParticles {
 impl InterleavedParticles {
     /// Grows the capacity to `particles` in all.
     pub fn reserve(&mut self, particles: usize) {
-        self.points.reserve_exact(particles.saturating_sub(self.points.len()));
-        self.w.reserve_exact(particles.saturating_sub(self.w.len()));
+        self.points.reserve_total(particles);
+        self.w.reserve_total(particles);
     }
 
     /// Copies positions and inverse masses from their columns.

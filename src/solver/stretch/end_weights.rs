@@ -11,6 +11,7 @@
 //! Invariant: `ends` and `is_even` have one entry per link of `constraints.links`.
 
 use crate::math::column::Column;
+use crate::math::reserve::ReserveTotal;
 use crate::math::same_bits;
 use crate::model::links::Links;
 use crate::solver::stretch::link_projection::relative_weights;
@@ -32,11 +33,11 @@ pub(crate) struct EndWeights {
 impl EndWeights {
     /// Grows the capacity to `particles` particles and `links` links in total.
     pub fn reserve(&mut self, particles: usize, links: usize) {
-        self.w.reserve_exact(particles.saturating_sub(self.w.len()));
+        self.w.reserve_total(particles);
         for list in &mut self.ends {
             list.reserve(links);
         }
-        self.is_even.reserve_exact(links.saturating_sub(self.is_even.len()));
+        self.is_even.reserve_total(links);
     }
 
     /// Whether the weights were computed from these inverse masses and these rigid kinds.

@@ -7,6 +7,7 @@
 //! Data only; `World::label_pieces` and `topology` write it.
 //! Invariant: `label` has one entry per triangle, and `members` belong to these labels.
 
+use crate::math::reserve::ReserveTotal;
 use crate::mesh::NONE;
 use crate::solver::topology::piece_members::PieceMembers;
 
@@ -45,8 +46,8 @@ impl PieceLabels {
     /// Reserves capacity for as many pieces as there are triangles.
     pub fn reserve(&mut self) {
         let count = self.label.len();
-        self.size.reserve_exact(count.saturating_sub(self.size.len()));
-        self.successor.reserve_exact(count.saturating_sub(self.successor.len()));
+        self.size.reserve_total(count);
+        self.successor.reserve_total(count);
         self.members.reserve(count);
     }
 }

@@ -6,6 +6,7 @@
 //! Invariant: has capacity for all particles and pieces that tears may still make, so that no tick
 //! allocates.
 
+use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Mesh, NONE, triangle_of};
 
 /// Lists of particles, one per piece, in ascending order. Particles without triangles are in none.
@@ -24,7 +25,7 @@ impl PieceMembers {
 
     /// Grows the capacity to `triangles` triangles, each of which may become a piece.
     pub fn reserve(&mut self, triangles: usize) {
-        self.ends.reserve_exact(triangles.saturating_sub(self.ends.len()));
+        self.ends.reserve_total(triangles);
     }
 
     /// The particles of each piece.
@@ -80,7 +81,7 @@ impl PieceGroups {
 
     /// Grows the capacity to `triangles` triangles, each of which may become a piece.
     pub fn reserve(&mut self, triangles: usize) {
-        self.parent.reserve_exact(triangles.saturating_sub(self.parent.len()));
+        self.parent.reserve_total(triangles);
         self.members.reserve(triangles);
     }
 

@@ -3,6 +3,7 @@
 //! Data only, allocated before the first tick. `tear` fills them anew in each call; nothing in them
 //! is state.
 
+use crate::math::reserve::ReserveTotal;
 use crate::mesh::Fan;
 
 /// Buffers of `tear`, kept so that no tick allocates.
@@ -57,6 +58,6 @@ impl TearScratch {
     /// Reserves capacity for `max_tears` tears per tick.
     pub fn reserve(&mut self, max_tears: usize) {
         let candidates = &mut self.candidates;
-        candidates.reserve_exact((max_tears + 1).saturating_sub(candidates.len()));
+        candidates.reserve_total(max_tears + 1);
     }
 }

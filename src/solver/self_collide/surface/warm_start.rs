@@ -13,6 +13,7 @@
 //! Invariant: forces are stored in the order of their contacts, and each one pushes (`normal > 0`)
 //! and is finite.
 
+use crate::math::reserve::ReserveTotal;
 use crate::solver::self_collide::surface::contact::{Contact, ContactKind};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -45,7 +46,7 @@ impl WarmStart {
     /// Reserves memory for the forces of a cloth of `particles` particles.
     pub fn reserve(&mut self, particles: usize) {
         let capacity = FORCES_PER_PARTICLE * particles;
-        self.0.reserve_exact(capacity.saturating_sub(self.0.len()));
+        self.0.reserve_total(capacity);
     }
 
     pub fn clear(&mut self) {
