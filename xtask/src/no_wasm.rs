@@ -62,7 +62,7 @@ pub fn convert(module: &Path, work: &Path) -> Result<PathBuf> {
     }
     std::fs::remove_file(&inputs).ok(); // it may be missing
     tools::to_javascript(module, &code, &[&FEATURES[..], &OPTIMIZED].concat())?;
-    files::write(&code, &replace_parts(&files::read(&code)?)?)?;
+    files::write(&code, &shorten_constants(&replace_parts(&files::read(&code)?)?))?;
     tools::minify(&code, &small, "--minify")?;
     std::fs::write(&inputs, input).during(|| format!("writing {}", inputs.display()))?;
     Ok(small)
@@ -85,6 +85,39 @@ fn replace_parts(code: &str) -> Result<String> {
         code.replace_range(start..end, replacement);
     }
     Ok(code)
+}
+
+/// What wasm2js writes before and after a constant of 32 bits.
+const CONSTANT: [&str; 2] = ["Math_fround(", ")"];
+
+/// Writes each constant of 32 bits with the fewest digits that give its bits. wasm2js writes them
+/// with the digits of 64 bits.
+fn shorten_constants(code: &str) -> String {
+    let [before, after] = CONSTANT;
+    let mut parts = code.split(before);
+    let mut short = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        short += before;
+        let constant = part.split_once(after).and_then(|(digits, rest)| {
+            let value: f64 = digits.parse().ok()?;
+            let value32 = value as f32;
+            let [plain, power] = [value32.to_string(), format!("{value32:e}")];
+            let text = if power.len() < plain.len() { power } else { plain };
+            let is_same = |read: f64| (read as f32).to_bits() == value32.to_bits();
+            let is_exact = f64::from(value32).to_bits() == value.to_bits();
+            let is_same = is_exact && text.parse().is_ok_and(is_same);
+            (is_same && text.len() < digits.len()).then_some((text, rest))
+        });
+        match constant {
+            Some((digits, rest)) => {
+                short += &digits;
+                short += after;
+                short += rest;
+            }
+            None => short += part,
+        }
+    }
+    short
 }
 
 #[cfg(test)]
@@ -111,6 +144,14 @@ mod tests {
             "{code}"
         );
         assert!(!code.contains("abort") && !code.contains("raw.js"), "{code}");
+    }
+
+    #[test]
+    fn constants_get_the_fewest_digits_that_give_their_bits() {
+        let code = "Math_fround(.11999999731779099) + Math_fround(a + 1.5) * Math_fround(0.1)";
+        let short = "Math_fround(0.12) + Math_fround(a + 1.5) * Math_fround(0.1)";
+        assert_eq!(shorten_constants(code), short);
+        assert_eq!(shorten_constants("Math_fround(-2.0000000e3);"), "Math_fround(-2e3);");
     }
 
     #[test]

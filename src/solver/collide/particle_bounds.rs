@@ -9,8 +9,8 @@ use crate::math::simd::{Level, leveled};
 use crate::math::{max, min};
 use glam::Vec3;
 
-/// Lanes of one loop; the widest registers hold sixteen.
-const LANES: usize = 16;
+/// Independent minima and maxima, so that one need not wait for the last.
+const LANES: usize = 8;
 
 /// Returns the smallest box around some positions [m].
 pub(super) fn of_columns(level: Level, positions: &Columns) -> Aabb {
