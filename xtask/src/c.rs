@@ -44,16 +44,30 @@ pub enum Linking {
     Shared,
 }
 
-/// LLVM inlines fewer functions that are called from several places than by default. That makes the
-/// library a tenth smaller and no slower, since the kernels carry inline attributes of their own.
-/// Loops are unrolled less, which saves another twentieth.
-const FLAGS: &str = "-C llvm-args=-inline-threshold=50 -C llvm-args=-unroll-threshold=100";
+/// Options of LLVM that make the library smaller and no slower:
+/// - Functions that are called from several places are inlined less; the kernels carry inline
+///   attributes of their own.
+/// - Loops are unrolled less. With a threshold of 50, ticks take 3 to 6 % longer.
+/// - Loops whose length is known only at run time are not unrolled. Vectorised loops still take
+///   several vectors per iteration.
+/// - Tail duplication copies shorter blocks only.
+/// - Loops are aligned only where that takes at most 7 bytes.
+const FLAGS: [&str; 5] = [
+    "-inline-threshold=50",
+    "-unroll-threshold=100",
+    "-unroll-runtime=false",
+    "-tail-dup-placement-aggressive-threshold=2",
+    "-max-bytes-for-alignment=7",
+];
 
 /// Builds the static and the shared library into `target/release`.
 pub fn build() -> Result {
     let mut cargo = shell::cargo(&["build", "--release", "--package", "muslin-c"]);
-    let others = std::env::var("RUSTFLAGS").unwrap_or_default();
-    shell::run(cargo.env("RUSTFLAGS", format!("{others} {FLAGS}")))?;
+    let mut flags = std::env::var("RUSTFLAGS").unwrap_or_default();
+    for flag in FLAGS {
+        flags += &format!(" -C llvm-args={flag}");
+    }
+    shell::run(cargo.env("RUSTFLAGS", flags))?;
     if cfg!(target_os = "linux") {
         let soname = concat!("libmuslin.so.", env!("CARGO_PKG_VERSION_MAJOR"));
         files::symlink("libmuslin.so", &release_dir().join(soname))?;

@@ -191,8 +191,13 @@ macro_rules! leveled {
                     _ => {}
                 }
             }
+            // Compiled once, not once per caller of `$name`: few x86-64 CPUs lack AVX2.
+            #[cfg_attr(target_arch = "x86_64", inline(never))]
+            fn baseline($($arg: $type),*) {
+                $body($($arg),*);
+            }
             let _ = level;
-            $body($($arg),*);
+            baseline($($arg),*);
         }
     };
 }
@@ -224,6 +229,12 @@ macro_rules! vectored {
             fn avx2($($arg: $type),*) {
                 $body($crate::math::simd::Avx2::new(), $($arg),*);
             }
+            // Compiled once, not once per caller, as in `leveled!`.
+            #[cfg(target_arch = "x86_64")]
+            #[inline(never)]
+            fn baseline($($arg: $type),*) {
+                $body($crate::math::simd::Sse2::new(), $($arg),*);
+            }
             #[cfg(target_arch = "x86_64")]
             let widest = $crate::math::simd::vectored!(@$widest avx2, $body, $($arg: $type),*);
             match level {
@@ -237,7 +248,7 @@ macro_rules! vectored {
                 #[cfg(target_arch = "x86_64")]
                 $crate::math::simd::Level::Avx512 => unsafe { widest($($arg),*) },
                 #[cfg(target_arch = "x86_64")]
-                _ => $body($crate::math::simd::Sse2::new(), $($arg),*),
+                _ => baseline($($arg),*),
                 #[cfg(target_arch = "aarch64")]
                 _ => $body($crate::math::simd::Neon::new(), $($arg),*),
                 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
