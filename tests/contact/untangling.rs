@@ -105,7 +105,7 @@ fn a_sheet_that_stands_through_another_is_untangled() {
             Vec3::new(x, (v - share) * SIZE * 0.6, 0.2533 + 0.02 * v)
         };
         let mut cloth = Cloth::mesh(&two_sheets(true, standing)).unwrap();
-        ticks_until_untangled(&format!("a sheet, {share}"), &mut cloth, most, 120)
+        ticks_until_untangled(&format!("a sheet, {share}"), &mut cloth, most, 90)
     });
     // One place along the sheet may take far longer than the others.
     let mean = ticks.iter().sum::<u32>() as f32 / ticks.len() as f32;
