@@ -15,8 +15,9 @@ impl Cloth {
     /// every platform and for any number of threads.
     ///
     /// The hash covers positions, history, velocities, masses, triangles, folds with their
-    /// accumulated yield, pins, attachments, anchors, grabs, colliders, tethers, warm-start
-    /// impulses of self-collision, the flag for unresolved intersections, origin, and time.
+    /// accumulated yield, pins, attachments, anchors, grabs, colliders with their impulses,
+    /// tethers, warm-start impulses of self-collision, the flag for unresolved intersections,
+    /// origin, substeps that the last tick added, and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut hasher) = (&self.world, StateHasher::new(0));
         let p = &world.particles;

@@ -3,6 +3,22 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+/// The checks of `cargo xtask verify`, which share no code with the solver.
+#[allow(dead_code)]
+#[path = "../verify/src/checks"]
+mod checks {
+    pub mod bodies;
+    mod bvh;
+    mod crossings;
+    mod distance;
+    mod exact;
+    pub mod surface;
+}
+/// The bodies and sheets of its scenes.
+#[allow(dead_code)]
+#[path = "../verify/src/shapes.rs"]
+mod shapes;
+
 mod added_substeps;
 mod colliders;
 mod fast_impacts;
@@ -10,6 +26,7 @@ mod friction_and_contact;
 mod hard_constraints;
 mod particle_collision;
 mod rest_with_intersections;
+mod small_and_fast_bodies;
 mod split_separation;
 mod surface_collision;
 mod untangling;

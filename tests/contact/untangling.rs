@@ -40,9 +40,9 @@ fn two_sheets(is_pinned: bool, place: impl Fn(f32, f32) -> Vec3) -> MeshDesc {
     desc
 }
 
-/// Runs `ticks` ticks; asserts that the last intersection disappears before tick `most` and that
-/// none comes back, up to and including the last half second.
-fn assert_untangles(name: &str, cloth: &mut Cloth, most: u32, ticks: u32) {
+/// Runs `ticks` ticks, and returns the last one that ended with intersections. Looks at each of the
+/// first `most`, of the last half second, and at every tenth between them.
+fn ticks_until_untangled(name: &str, cloth: &mut Cloth, most: u32, ticks: u32) -> u32 {
     let before = crossing_count(cloth);
     assert!(before >= 8, "{name}: only {before} intersections at the start");
     let mut last = 0;
@@ -55,11 +55,15 @@ fn assert_untangles(name: &str, cloth: &mut Cloth, most: u32, ticks: u32) {
     }
     let speed = cloth.stats().max_speed;
     println!("{name}: {before} intersections, none after {last} ticks; {speed:.5} m/s at most");
-    assert!(
-        last < most,
-        "{name}: {} intersections, the last after {last} ticks",
-        crossing_count(cloth)
-    );
+    last
+}
+
+/// Runs `ticks` ticks; asserts that the last intersection disappears before tick `most` and that
+/// none comes back, up to and including the last half second.
+fn assert_untangles(name: &str, cloth: &mut Cloth, most: u32, ticks: u32) {
+    let last = ticks_until_untangled(name, cloth, most, ticks);
+    let now = crossing_count(cloth);
+    assert!(last < most, "{name}: {now} intersections, the last after {last} ticks");
 }
 
 #[test]
@@ -93,14 +97,19 @@ fn a_corner_pushed_through_a_sheet_is_untangled() {
 
 #[test]
 fn a_sheet_that_stands_through_another_is_untangled() {
-    for share in [0.1, 0.3, 0.5] {
+    let most = 60;
+    let shares = [0.1, 0.22, 0.24, 0.26, 0.28, 0.29, 0.3, 0.31, 0.32, 0.34, 0.36, 0.4, 0.45, 0.5];
+    let ticks = shares.map(|share| {
         let standing = |u: f32, v: f32| {
             let x = 0.1513 + u * SIZE * 0.6;
             Vec3::new(x, (v - share) * SIZE * 0.6, 0.2533 + 0.02 * v)
         };
         let mut cloth = Cloth::mesh(&two_sheets(true, standing)).unwrap();
-        assert_untangles(&format!("a sheet, {share}"), &mut cloth, 45, 120);
-    }
+        ticks_until_untangled(&format!("a sheet, {share}"), &mut cloth, most, 90)
+    });
+    // One place along the sheet may take far longer than the others.
+    let mean = ticks.iter().sum::<u32>() as f32 / ticks.len() as f32;
+    assert!(mean <= 15.0 && ticks.iter().all(|last| *last < most), "{ticks:?}, {mean} on average");
 }
 
 /// Two sheets that intersect along a line that starts at a border of each, like interleaved cards:

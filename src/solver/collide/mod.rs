@@ -108,6 +108,14 @@ pub(crate) fn finish_tick(world: &mut World) {
     }
 }
 
+/// Starts the phase after the last substep, in which colliders rest where they ended: paths of
+/// particles start at the current positions. The start of the substep may be inside a collider that
+/// has moved on since.
+pub(crate) fn begin_last_phase(world: &mut World) {
+    world.scratch.predicted.copy_from(&world.particles.x);
+    world.scratch.displacement.fill(Vec3::ZERO);
+}
+
 /// What a projection pushes out of colliders, without friction and restitution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Projection {

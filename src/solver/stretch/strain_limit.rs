@@ -107,8 +107,6 @@ pub(crate) fn report(world: &mut World) {
 
 /// Steps 2 to 4 of the module doc, for links longer than `limit` times their rest length.
 fn project_all(world: &mut World, limit: f32) {
-    world.scratch.predicted.copy_from(&world.particles.x);
-    world.scratch.displacement.fill(Vec3::ZERO);
     let target = 1.0 + world.settings.max_stretch * TARGET_SHARE;
     let was_over = world.over_stretched > 0;
     let has_anchors = !world.anchors.is_empty();

@@ -12,8 +12,8 @@ use std::time::Duration;
 
 /// Depth of a particle in a collider that fails [m].
 pub const MAX_DEPTH: f64 = 1.0e-4;
-/// Depth of a triangle in a primitive that fails [m]: none, it is only reported.
-pub const MAX_TRIANGLE_DEPTH: f64 = f64::INFINITY;
+/// Depth of a triangle in a sphere, a capsule or a box that fails [m].
+pub const MAX_TRIANGLE_DEPTH: f64 = 1.0e-4;
 /// Unexplained change of the mean velocity in one tick, and over the whole scene, that fails [m/s].
 pub const MAX_VELOCITY_ERROR: f64 = 1.0e-3;
 /// Unexplained change of the angular velocity in one tick that fails [rad/s].
@@ -172,7 +172,7 @@ impl Report {
         };
         fail(self.is_surface && self.crossings.value > 0.0, "crossings");
         fail(self.penetration_ticks > 0, "penetrations");
-        fail(self.triangle_depth.value > MAX_TRIANGLE_DEPTH, "triangles in a collider");
+        fail(self.triangle_depth.value > MAX_TRIANGLE_DEPTH, "triangles");
         fail(self.mesh_pairs.value > 0.0, "mesh pairs");
         fail(self.untold > 0, "untold breaks");
         fail(self.not_finite > 0, "not finite");

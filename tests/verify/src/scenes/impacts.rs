@@ -71,8 +71,8 @@ pub fn scenes() -> Vec<Scene> {
         ("mesh", || round_mesh(16, 32, |_, _| Vec3::splat(0.3))),
     ];
     for (name, body) in bodies {
-        for speed in [5, 15] {
-            for sheet in [SHEETS[0], SHEETS[3], SHEETS[7]] {
+        for speed in [5, 15, 50] {
+            for sheet in [SHEETS[0], SHEETS[3], SHEETS[4], SHEETS[7]] {
                 scenes.push(scene(name, speed, sheet, body));
             }
         }
