@@ -104,7 +104,8 @@ fn shorten_constants(code: &str) -> String {
             let [plain, power] = [value32.to_string(), format!("{value32:e}")];
             let text = if power.len() < plain.len() { power } else { plain };
             let is_same = |read: f64| (read as f32).to_bits() == value32.to_bits();
-            let is_exact = f64::from(value32).to_bits() == value.to_bits();
+            // Infinity has another name there.
+            let is_exact = value.is_finite() && f64::from(value32).to_bits() == value.to_bits();
             let is_same = is_exact && text.parse().is_ok_and(is_same);
             (is_same && text.len() < digits.len()).then_some((text, rest))
         });
@@ -152,6 +153,8 @@ mod tests {
         let short = "Math_fround(0.12) + Math_fround(a + 1.5) * Math_fround(0.1)";
         assert_eq!(shorten_constants(code), short);
         assert_eq!(shorten_constants("Math_fround(-2.0000000e3);"), "Math_fround(-2e3);");
+        let infinite = "Math_fround(Infinity) - Math_fround(-Infinity) + Math_fround(NaN)";
+        assert_eq!(shorten_constants(infinite), infinite);
     }
 
     #[test]
