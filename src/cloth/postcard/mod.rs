@@ -6,8 +6,8 @@
 //!
 //! Muslin has its own implementation to keep the code small: serde generates code per field, and
 //! the postcard crate would be a twentieth of what a web page loads. For the same reason neither
-//! has errors for serde: writing cannot fail for the types of a save, and reading continues with zeros after the first error and
-//! reports that error at the end.
+//! has errors for serde: writing cannot fail for the types of a save, and reading continues with
+//! zeros after the first error and reports that error at the end.
 //!
 //! Reads and writes only its arguments.
 //! Invariant: output and accepted input are the same as those of the postcard crate (tested).

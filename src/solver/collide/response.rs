@@ -13,7 +13,7 @@
 //! The impulse on the collider is what the particle will have gained, see [`final_velocity`]:
 //!
 //! ```text
-//! m (final velocity after the response − before it + correction · new_weight / (h (1 − extrapolation)))
+//! m (v_final after the response − v_final before it + correction · new_weight / (h (1 − extrapolation)))
 //! ```
 //! Reads the contacts of the substep, positions, predicted positions and displacements; writes
 //! velocities, history and `scratch.contacts.impulses`.
@@ -70,7 +70,8 @@ pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
 }
 
 /// Returns the velocity that a particle with this velocity and extrapolated velocity reaches by its
-/// history alone: each substep leaves it the fraction `extrapolation` of its last change of velocity.
+/// history alone: each substep leaves it the fraction `extrapolation` of its last change of
+/// velocity.
 #[inline(always)]
 fn final_velocity([v, v_extrapolated]: [Vec3; 2], remaining: f32) -> Vec3 {
     v + (v_extrapolated - v) * remaining

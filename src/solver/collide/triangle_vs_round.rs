@@ -53,8 +53,8 @@ struct TriangleMotion {
     end: [Vec3; 3],
 }
 
-/// Pushes the nearby triangles, and all long ones, out of a shape once, with contact distance `gap` [m]
-/// of particles. Returns the depth of the deepest penetration [m], 0 if there was none.
+/// Pushes the nearby triangles, and all long ones, out of a shape once, with contact distance `gap`
+/// [m] of particles. Returns the depth of the deepest penetration [m], 0 if there was none.
 pub(super) fn solve(
     shape: &CollisionShape,
     particles: &mut LocalParticles<'_>,

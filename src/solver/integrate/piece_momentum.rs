@@ -88,8 +88,8 @@ fn remove_from_groups(world: &mut World) {
 }
 
 /// Removes the momentum that the corrections since prediction added to some particles, unless more
-/// than `max_fixed` of them are fixed. `is_pushed`: whether a collider may push them. The middles and errors of `compute_angular_errors` are in
-/// `relative_wind` and `correction`.
+/// than `max_fixed` of them are fixed. `is_pushed`: whether a collider may push them. The middles and
+/// errors of `compute_angular_errors` are in `relative_wind` and `correction`.
 fn remove_from(
     world: &mut World,
     particles: &[u32],

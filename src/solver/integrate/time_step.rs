@@ -7,8 +7,9 @@
 //! ```
 //! A tick in which cloth and colliders move fast relative to each other runs more substeps (see
 //! `collide::relative_motion`); the number falls slowly, so that a body that shakes does not change
-//! it in every tick, which would drive vibrations. After a change of the length the history of the second-order scheme
-//! (BDF2) is dropped, so the next substep is one of BDF1, and velocities stay as they are.
+//! it in every tick, which would drive vibrations. After a change of the length the history of the
+//! second-order scheme (BDF2) is dropped, so the next substep is one of BDF1, and velocities stay as
+//! they are.
 //!
 //! Reads settings, colliders and velocities; writes `world.substeps`, the history, `stiffness_step`
 //! and the inverse masses of soft pins.
