@@ -24,7 +24,7 @@ pub const PLAIN: &str =
 /// Compiler flags for the first version of wasm, with bulk memory operations: what wasm2js can
 /// translate. Inlining would make the script larger, not faster.
 const OLD: &str = "-C target-feature=-simd128,-nontrapping-fptoint,-sign-ext \
-                   -C llvm-args=-inline-threshold=1";
+                   -C llvm-args=--disable-lsr -C llvm-args=-inline-threshold=1";
 
 /// Compiles the simulation for size, and the exports for the least size.
 const SMALL: [&str; 4] = [
