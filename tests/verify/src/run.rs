@@ -315,7 +315,7 @@ mod tests {
                 _ => Ok(()),
             })
         };
-        assert_eq!(failures(false, plant), ["penetrations"]);
+        assert_eq!(failures(false, plant), ["penetrations", "triangles"]);
     }
 
     #[test]
