@@ -435,6 +435,26 @@ mod tests {
     }
 
     #[test]
+    fn the_longest_chord_has_the_sagitta_that_it_was_asked_for() {
+        // One bend, bends closer together than the chord, and faces as wide as the chord.
+        for (angle, curvature, sagitta) in [(0.2, 0.1, 0.004), (0.05, 8.0, 0.02), (0.2, 3.3, 0.004)]
+        {
+            let bend = SurfaceBend { angle, curvature };
+            let found = bend.sagitta(bend.longest_chord(sagitta));
+            assert!((found / sagitta - 1.0).abs() < 1.0e-4, "{bend:?}: {found} m");
+        }
+        assert_eq!(SurfaceBend::default().longest_chord(0.001), f32::INFINITY);
+    }
+
+    #[test]
+    fn many_bends_close_together_count_the_size_of_their_faces() {
+        let bend = SurfaceBend { angle: 0.2, curvature: 10.0 };
+        let [chord, face] = [0.1_f32, 0.03];
+        let expected = 10.0 / 8.0 * (chord * chord + face * face);
+        assert!((bend.sagitta(chord) - expected).abs() < 1.0e-6, "{}", bend.sagitta(chord));
+    }
+
+    #[test]
     fn the_histogram_gives_the_largest_bends_within_a_sagitta() {
         let mut bends = BendHistogram::default();
         for angle in [0.01, 0.1, 0.125, 0.5, 1.5] {

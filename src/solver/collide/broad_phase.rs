@@ -11,7 +11,7 @@
 //! always listed.
 
 use crate::geometry::aabb::Aabb;
-use crate::math::max;
+use crate::math::{max, min};
 use crate::solver::collide::any_moved::any_moved;
 use crate::solver::collide::contact_distance::{
     contact_gap, longest_free_edge, needs_triangle_tests, smoothing,
@@ -97,7 +97,7 @@ fn refresh_long_triangles(world: &mut World) {
     let bounds = particle_bounds::of_columns(world.level, x);
     let entries = contacts.nearby.entries.iter();
     let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
-    let limit = near.fold(f32::INFINITY, |least, entry| -max(-entry.longest_free_edge, -least));
+    let limit = near.fold(f32::INFINITY, |least, entry| min(entry.longest_free_edge, least));
     contacts.long.refresh(limit, x, &world.mesh.triangles, world.level);
 }
 

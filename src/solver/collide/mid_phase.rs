@@ -148,16 +148,13 @@ impl ColliderPairs {
     /// much of the cloth. More pairs allocate when they are first found.
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         let few = bodies.min(4);
-        fn reserve<T>(list: &mut Vec<T>, count: usize) {
-            list.reserve_total(count);
-        }
-        reserve(&mut self.edges, 4 * few * triangles);
-        reserve(&mut self.vertices, few * triangles);
-        reserve(&mut self.face_starts, bodies * (particles + 1));
-        reserve(&mut self.faces, 8 * few * particles);
-        reserve(&mut self.block_features, triangles);
+        self.edges.reserve_total(4 * few * triangles);
+        self.vertices.reserve_total(few * triangles);
+        self.face_starts.reserve_total(bodies * (particles + 1));
+        self.faces.reserve_total(8 * few * particles);
+        self.block_features.reserve_total(triangles);
         self.terrain_features.reserve(triangles);
-        reserve(&mut self.motion_bounds, particles);
+        self.motion_bounds.reserve_total(particles);
     }
 
     pub fn clear(&mut self) {

@@ -206,7 +206,8 @@ pub(crate) fn solve(world: &mut World, substep: u32) {
 }
 
 /// Solves the contacts of all colliders, one after the other. `frames` gives the frames of a
-/// collider at the start and at the end.
+/// collider at the start and at the end. With `projection` it only pushes out, without friction and
+/// restitution.
 fn solve_colliders(
     world: &mut World,
     frames: &dyn Fn(&ColliderBody) -> [Transform; 2],

@@ -98,11 +98,8 @@ impl NearbyBlocks {
         self.entries.reserve_total(bodies);
         self.blocks.reserve_total(all);
         self.positions_at_rebuild.reserve(particles);
-        let reserve = |list: &mut Vec<Aabb>, count: usize| {
-            list.reserve_total(count);
-        };
-        reserve(&mut self.particle_bounds, particle_blocks);
-        reserve(&mut self.triangle_bounds, triangle_blocks);
+        self.particle_bounds.reserve_total(particle_blocks);
+        self.triangle_bounds.reserve_total(triangle_blocks);
         self.candidates.reserve(bodies, particles, triangles);
         self.is_stale = true;
     }

@@ -15,8 +15,8 @@
 //! earlier tick found.
 
 use crate::geometry::aabb::Aabb;
-use crate::math::max;
 use crate::math::simd::leveled;
+use crate::math::{max, min};
 use crate::solver::collide::body_motion::BodyMotion;
 use crate::solver::collide::contact_distance::{contact_gap, smoothing};
 use crate::solver::collide::nearby_blocks::BLOCK;
@@ -43,8 +43,7 @@ pub(crate) fn needed_substeps(world: &mut World, available: f32) -> f32 {
         let (_, sagitta_margin) = smoothing(shape, world.mean_edge);
         let gap = contact_gap(body, world.material.thickness) + sagitta_margin;
         let motion = BodyMotion::new(body, shape, gap + margin, step);
-        let left = available * motion.step - motion.longest;
-        harmless = if left < harmless { left } else { harmless };
+        harmless = min(available * motion.step - motion.longest, harmless);
         bodies.push(motion);
     }
     let needed = if !bodies.is_empty() && has_longer_displacement(world, harmless) {

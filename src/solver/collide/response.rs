@@ -13,7 +13,8 @@
 //! The impulse on the collider is what the particle will have gained, see [`final_velocity`]:
 //!
 //! ```text
-//! m (v_final after the response − v_final before it + correction · new_weight / (h (1 − extrapolation)))
+//! impulse = m (v_final − v_final before the response + correction · velocity_per_correction)
+//! velocity_per_correction = new_weight / (h (1 − extrapolation))
 //! ```
 //! Reads the contacts of the substep, positions, predicted positions and displacements; writes
 //! velocities, history and `scratch.contacts.impulses`.
