@@ -19,7 +19,8 @@
 //! │  ├─ Contacts      colliders: narrow phase and response
 //! │  ├─ Hold          anchors: max distance and backstop
 //! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass and colliders
-//! │  └─ Velocities    v ← (x - x_start) / h by BDF, then velocities of surface contacts
+//! │  └─ Velocities    v ← (x - x_start) / h by BDF, then velocities of surface contacts, then
+//! │                   momentum of a free cloth that hits a collider
 //! ├─ Bend         folds (plasticity)         Colliders  colliders reach their end poses
 //! ├─ Guard        restore particles with invalid numbers
 //! ├─ Tear         split vertices of overstretched links
@@ -39,7 +40,7 @@
 
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{
-    forces, piece_momentum, predict, recover, sleep, time_step, velocities,
+    forces, impact_momentum, piece_momentum, predict, recover, sleep, time_step, velocities,
 };
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::rebase;
@@ -136,6 +137,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         }
         timed!(world, Hold, anchors::project_at_end(world));
         timed!(world, SelfContacts, surface_stages::enforce_non_crossing_at_tick_end(world));
+        timed!(world, SelfContacts, piece_momentum::end_last_phase(world));
         if is_bounded {
             timed!(world, Limit, strain_limit::report(world));
         }
@@ -185,6 +187,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
     timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, surface_stages::damp_velocities(world));
+    timed!(world, Velocities, impact_momentum::restore(world));
     time_step::end_substep(world);
 }
 

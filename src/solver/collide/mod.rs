@@ -40,14 +40,15 @@ mod triangle_vs_round;
 
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::transform::Transform;
+use crate::math::max;
 use crate::math::wide4::{Float4, xyz};
-use crate::math::{max, saturate};
 use crate::solver::collide::contact_distance::{TRIANGLE_GAP, contact_gap};
 use crate::solver::collide::edge_vs_feature::FeatureQuery;
 use crate::solver::collide::local_particles::{ContactMaterial, Depenetration, LocalParticles};
 use crate::solver::collide::mid_phase::PairSearch;
 use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
+use crate::solver::integrate::piece_momentum;
 use crate::solver::world::World;
 use crate::state::colliders::{ColliderBody, Impulse};
 use glam::Vec3;
@@ -102,9 +103,8 @@ pub(crate) fn begin_tick(world: &mut World) {
 pub(crate) fn finish_tick(world: &mut World) {
     for (body, impulse) in world.colliders.iter_mut().zip(&world.scratch.contacts.impulses) {
         body.finish_tick();
-        let Impulse { linear, angular } = *impulse;
-        let angular = angular - body.position().cross(linear);
-        body.impulse = Impulse { linear: saturate(linear), angular: saturate(angular) };
+        body.impulse = impulse.about(body.position()).saturate();
+        body.pending = body.pending.saturate();
     }
 }
 
@@ -112,7 +112,7 @@ pub(crate) fn finish_tick(world: &mut World) {
 /// particles start at the current positions. The start of the substep may be inside a collider that
 /// has moved on since.
 pub(crate) fn begin_last_phase(world: &mut World) {
-    world.scratch.predicted.copy_from(&world.particles.x);
+    piece_momentum::begin_last_phase(world);
     world.scratch.displacement.fill(Vec3::ZERO);
 }
 
@@ -186,21 +186,29 @@ pub(crate) fn project_out_in_substep(
         is_deep
     });
     pushed.extend(contacts.projections.iter().map(|projection| projection.particle));
-    let Some(starts) = starts else { return };
     for projection in &contacts.projections {
+        let i = projection.particle as usize;
+        let (end, mass) = (world.particles.x.get(i), world.particles.mass[i]);
+        let pushes = &mut contacts.late_pushes[projection.body as usize];
+        pushes.add_at(end, projection.correction * mass);
+        let Some(starts) = starts else { continue };
         let Some(body) = world.colliders.iter().nth(projection.body as usize) else { continue };
         let [from, to] = substep_frames(body, substep, substeps);
-        let start = xyz(&starts[projection.particle as usize]);
+        let start = xyz(&starts[i]);
         let carried =
             if from == to { start } else { to.point_to_world(from.point_to_local(start)) };
-        world.particles.x.set(projection.particle as usize, carried);
+        world.particles.x.set(i, carried);
+        pushes.add_at(carried, (carried - end) * mass);
     }
 }
 
 /// Pushes free particles, edges and triangles out of every collider in its pose at the end of this
 /// substep.
 pub(crate) fn solve(world: &mut World, substep: u32) {
-    world.scratch.contacts.collider_contacts.clear();
+    let contacts = &mut world.scratch.contacts;
+    contacts.collider_contacts.clear();
+    contacts.late_pushes.clear();
+    contacts.late_pushes.resize(contacts.impulses.len(), Impulse::default());
     let substeps = world.substeps;
     solve_colliders(world, &|body| substep_frames(body, substep, substeps), None);
 }

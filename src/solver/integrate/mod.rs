@@ -6,7 +6,9 @@
 //! numbers, and `sleep` skips the ticks of a cloth at rest.
 
 pub(crate) mod forces;
+pub(crate) mod impact_momentum;
 pub(crate) mod momentum;
+pub(crate) mod momentum_sums;
 pub(crate) mod piece_momentum;
 pub(crate) mod predict;
 pub(crate) mod recover;

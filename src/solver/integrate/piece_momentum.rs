@@ -47,6 +47,43 @@ pub(crate) fn remove_internal_momentum(world: &mut World) {
     }
 }
 
+/// Starts the phase after the last substep: stores positions and velocities.
+pub(crate) fn begin_last_phase(world: &mut World) {
+    world.scratch.predicted.copy_from(&world.particles.x);
+    world.scratch.correction.copy_from(&world.particles.v);
+}
+
+/// Ends the phase after the last substep: gives each free piece the momentum and the angular momentum
+/// back that it had before. Hard constraints move particles without a force, and what a collider
+/// gave to a few particles belongs to the whole piece.
+pub(crate) fn end_last_phase(world: &mut World) {
+    if world.pins.has_soft() || !world.anchors.is_empty() {
+        return;
+    }
+    let h = world.regular_scheme().h;
+    let (p, scratch) = (&mut world.particles, &world.scratch);
+    let (x, v) = (&scratch.predicted, &scratch.correction);
+    if p.x == *x && p.v == *v {
+        return;
+    }
+    for piece in scratch.pieces.members.iter() {
+        let particles = || piece.iter().map(|i| *i as usize);
+        if particles().any(|i| p.w[i] <= 0.0) {
+            continue;
+        }
+        let motion = RigidMotion::between(
+            || particles().map(|i| (x.get(i), v.get(i), p.mass[i])),
+            || particles().map(|i| (p.x.get(i), p.v.get(i), p.mass[i])),
+        );
+        for i in particles() {
+            let change = motion.displacement_at(p.x.get(i));
+            p.v.add(i, change);
+            p.v_extrapolated.add(i, change);
+            p.displacement.add(i, change * h);
+        }
+    }
+}
+
 /// How velocities count the rounding of positions that a correction causes.
 #[derive(Clone, Copy, Debug)]
 enum Rounding {

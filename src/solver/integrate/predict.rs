@@ -20,7 +20,8 @@
 )]
 
 use crate::math::simd::{Scalar, Simd, leveled, vectored};
-use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
+use crate::solver::integrate::momentum_sums::FreeParticles;
+use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::stretch::tethers::project_into_sphere;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::settings::BdfScheme;

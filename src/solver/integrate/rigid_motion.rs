@@ -9,13 +9,15 @@
 //! damping of Müller et al., "Position based dynamics", 2007, sec. 3.5.
 //!
 //! Reads positions, displacements and masses; writes nothing.
-//! Invariant: the sums use eight lanes in a fixed order, so the bits do not depend on the SIMD
-//! level.
+//! Invariant: the bits do not depend on the SIMD level.
 
 use crate::math::columns::Columns;
-use crate::math::simd::{Float, LANES, LaneArray, Level, Scalar, Simd, vectored};
+use crate::math::simd::{Level, Simd};
 use crate::math::trig::{cos, sin};
-use glam::{Mat3, Vec3};
+use crate::solver::integrate::momentum_sums::{
+    FreeParticles, LinearSums, PointSums, spin_and_inertia,
+};
+use glam::{DVec3, Mat3, Vec3};
 
 /// A rigid displacement: translation [m] and small rotation vector [rad] about `center` [m].
 #[derive(Clone, Copy, Debug)]
@@ -65,26 +67,43 @@ impl RigidMotion {
         &self,
         points: impl Iterator<Item = (Vec3, Vec3, f32)>,
     ) -> (Vec3, Mat3) {
-        let (mut spin, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
+        let (mut spin, mut inertia) = (DVec3::ZERO, Mat3::ZERO);
         for (x, displacement, mass) in points {
             let r = x - self.center;
-            spin += r.cross(displacement - self.translation) * mass;
+            spin += (r.cross(displacement - self.translation) * mass).as_dvec3();
             add_inertia(&mut inertia, r, mass);
         }
-        (spin, inertia)
+        (spin.as_vec3(), inertia)
     }
 
     /// The centre of mass of points, and the translation with their momentum.
     fn translation_of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(
         points: &impl Fn() -> I,
     ) -> Self {
-        let (mut total, mut center, mut translation) = (0.0, Vec3::ZERO, Vec3::ZERO);
-        for (x, displacement, mass) in points() {
-            total += mass;
-            center += x * mass;
-            translation += displacement * mass;
-        }
-        Self::translation_from_sums(total, center, translation)
+        let sums = PointSums::of(points());
+        Self::translation_from_sums(
+            sums.mass as f32,
+            sums.center.as_vec3(),
+            sums.momentum.as_vec3(),
+        )
+    }
+
+    /// The rigid motion that gives points the linear and angular momentum of `before`, if they have
+    /// those of `now`. Points are given as position, displacement and mass.
+    pub fn between<I: Iterator<Item = (Vec3, Vec3, f32)>, J: Iterator<Item = (Vec3, Vec3, f32)>>(
+        before: impl Fn() -> I,
+        now: impl Fn() -> J,
+    ) -> Self {
+        let (old, new) = (PointSums::of(before()), PointSums::of(now()));
+        let fitted = Self::translation_from_sums(
+            new.mass as f32,
+            new.center.as_vec3(),
+            (old.momentum - new.momentum).as_vec3(),
+        );
+        let (_, inertia) = fitted.spin_and_inertia_of_points(now());
+        let linear = old.momentum - new.momentum;
+        let spin = old.spin - new.spin - fitted.center.as_dvec3().cross(linear);
+        Self { rotation: Pivot::Nothing.rotation(inertia, spin.as_vec3()), ..fitted }
     }
 
     /// The centre of mass and the translation, from sums over particles: of masses, of positions
@@ -100,18 +119,14 @@ impl RigidMotion {
     /// The centre of mass of all free particles, and the translation with their momentum, in SIMD
     /// lanes.
     pub fn translation_of_free(level: Level, free: FreeParticles<'_>) -> Self {
-        let mut sums = [[0.0; LANES]; 7];
-        sum_momentum(level, free, &mut sums);
-        let [total, x, y, z, dx, dy, dz] = sums.map(sum_of_lanes);
-        Self::translation_from_sums(total, Vec3::new(x, y, z), Vec3::new(dx, dy, dz))
+        let LinearSums { mass, center, momentum } = LinearSums::of(level, free);
+        Self::translation_from_sums(mass, center, momentum)
     }
 
     /// As `fit`, for all free particles, in SIMD lanes.
     pub fn of_free(level: Level, free: FreeParticles<'_>) -> Self {
         let Self { center, translation, .. } = Self::translation_of_free(level, free);
-        let mut sums = [[0.0; LANES]; 9];
-        sum_angular_momentum(level, free, [center.to_array(), translation.to_array()], &mut sums);
-        let (spin, inertia) = spin_and_inertia(sums.map(sum_of_lanes));
+        let (spin, inertia) = spin_and_inertia(level, free, [center, translation]);
         Self { center, translation, rotation: solve(&inertia, spin) }
     }
 
@@ -125,10 +140,14 @@ impl RigidMotion {
             }
             Pivot::Point(point) | Pivot::Axis(point, _) => (point, Vec3::ZERO),
         };
-        let mut sums = [[0.0; LANES]; 9];
-        sum_angular_momentum(level, free, [center.to_array(), translation.to_array()], &mut sums);
-        let (spin, inertia) = spin_and_inertia(sums.map(sum_of_lanes));
+        let (spin, inertia) = spin_and_inertia(level, free, [center, translation]);
         Self { center, translation, rotation: pivot.rotation(inertia, spin) }
+    }
+
+    /// The motion of a body about its `center` with this translation, angular momentum and moment of
+    /// inertia.
+    pub fn with_momentum(center: Vec3, translation: Vec3, spin: Vec3, inertia: Mat3) -> Self {
+        Self { center, translation, rotation: Pivot::Nothing.rotation(inertia, spin) }
     }
 
     /// The translation [m].
@@ -204,160 +223,6 @@ pub(crate) struct Component<'a> {
     pub at: [&'a [f32]; 2],
 }
 
-/// All particles: positions, displacements, masses and inverse masses. The sums skip those with
-/// zero inverse mass.
-#[derive(Clone, Copy)]
-pub(crate) struct FreeParticles<'a> {
-    pub x: [&'a [f32]; 3],
-    pub displacement: [&'a [f32]; 3],
-    pub mass: &'a [f32],
-    pub w: &'a [f32],
-}
-
-impl<'a> FreeParticles<'a> {
-    /// The particles of a range.
-    #[inline(always)]
-    fn slice(&self, from: usize, to: usize) -> Self {
-        let Self { x, displacement, mass, w } = *self;
-        let [x, displacement] = [x, displacement]
-            .map(|columns: [&'a [f32]; 3]| columns.map(|column| &column[from..to]));
-        Self { x, displacement, mass: &mass[from..to], w: &w[from..to] }
-    }
-
-    /// Positions, displacements and masses in lanes; the mass of a held particle is 0.
-    #[inline(always)]
-    fn load<S: Simd>(&self, s: S, at: usize) -> ([S::F; 3], [S::F; 3], S::F) {
-        let ([x, y, z], [dx, dy, dz]) = (self.x, self.displacement);
-        (
-            [s.load(x, at), s.load(y, at), s.load(z, at)],
-            [s.load(dx, at), s.load(dy, at), s.load(dz, at)],
-            s.select_or_zero(s.load(self.w, at), s.load(self.mass, at)),
-        )
-    }
-}
-
-vectored! {
-    /// Sums m, m x and m d. Particle i goes to lane i mod 8.
-    fn sum_momentum(free: FreeParticles<'_>, sums: &mut [LaneArray; 7])
-        = sum_momentum_lanes, Avx2, sum_momentum_scalar
-}
-
-vectored! {
-    /// Sums m r × (d − t) and the products of m r, where r leads from the centre of mass.
-    fn sum_angular_momentum(free: FreeParticles<'_>, mean: [[f32; 3]; 2], sums: &mut [LaneArray; 9])
-        = sum_angular_momentum_lanes, Avx2, sum_angular_momentum_scalar
-}
-
-fn sum_momentum_scalar(free: FreeParticles<'_>, sums: &mut [LaneArray; 7]) {
-    sum_momentum_lanes(Scalar, free, sums);
-}
-
-fn sum_angular_momentum_scalar(
-    free: FreeParticles<'_>,
-    mean: [[f32; 3]; 2],
-    sums: &mut [LaneArray; 9],
-) {
-    sum_angular_momentum_lanes(Scalar, free, mean, sums);
-}
-
-#[inline(always)]
-fn sum_momentum_lanes<S: Simd>(s: S, free: FreeParticles<'_>, sums: &mut [LaneArray; 7]) {
-    let count = free.w.len();
-    let whole = free.slice(0, count / LANES * LANES);
-    for first in (0..LANES).step_by(S::LANES) {
-        let mut sum = [s.splat(0.0); 7];
-        let mut at = first;
-        while at + S::LANES <= whole.w.len() {
-            add_momentum(&mut sum, whole.load(s, at));
-            at += LANES;
-        }
-        for (sums, sum) in sums.iter_mut().zip(sum) {
-            s.store(sums, first, sum);
-        }
-    }
-    let rest = free.slice(whole.w.len(), count);
-    for lane in 0..rest.w.len() {
-        let mut sum = sums.map(|sums| sums[lane]);
-        add_momentum(&mut sum, rest.load(Scalar, lane));
-        sums.iter_mut().zip(sum).for_each(|(sums, sum)| sums[lane] = sum);
-    }
-}
-
-#[inline(always)]
-fn sum_angular_momentum_lanes<S: Simd>(
-    s: S,
-    free: FreeParticles<'_>,
-    [center, translation]: [[f32; 3]; 2],
-    sums: &mut [LaneArray; 9],
-) {
-    let count = free.w.len();
-    let whole = free.slice(0, count / LANES * LANES);
-    let mean = [
-        [s.splat(center[0]), s.splat(center[1]), s.splat(center[2])],
-        [s.splat(translation[0]), s.splat(translation[1]), s.splat(translation[2])],
-    ];
-    for first in (0..LANES).step_by(S::LANES) {
-        let mut sum = [s.splat(0.0); 9];
-        let mut at = first;
-        while at + S::LANES <= whole.w.len() {
-            add_angular_momentum(&mut sum, mean, whole.load(s, at));
-            at += LANES;
-        }
-        for (sums, sum) in sums.iter_mut().zip(sum) {
-            s.store(sums, first, sum);
-        }
-    }
-    let rest = free.slice(whole.w.len(), count);
-    for lane in 0..rest.w.len() {
-        let mut sum = sums.map(|sums| sums[lane]);
-        add_angular_momentum(&mut sum, [center, translation], rest.load(Scalar, lane));
-        sums.iter_mut().zip(sum).for_each(|(sums, sum)| sums[lane] = sum);
-    }
-}
-
-#[inline(always)]
-fn add_momentum<F: Float>(sum: &mut [F; 7], (x, displacement, mass): ([F; 3], [F; 3], F)) {
-    sum[0] = sum[0] + mass;
-    for axis in 0..3 {
-        sum[1 + axis] = sum[1 + axis] + x[axis] * mass;
-        sum[4 + axis] = sum[4 + axis] + displacement[axis] * mass;
-    }
-}
-
-#[inline(always)]
-fn add_angular_momentum<F: Float>(
-    sum: &mut [F; 9],
-    [center, translation]: [[F; 3]; 2],
-    (x, displacement, mass): ([F; 3], [F; 3], F),
-) {
-    let [x, y, z] = [x[0] - center[0], x[1] - center[1], x[2] - center[2]];
-    let (dx, dy, dz) = (
-        displacement[0] - translation[0],
-        displacement[1] - translation[1],
-        displacement[2] - translation[2],
-    );
-    let (mx, my, mz) = (x * mass, y * mass, z * mass);
-    let new = [
-        my * dz - mz * dy,
-        mz * dx - mx * dz,
-        mx * dy - my * dx,
-        mx * x,
-        my * y,
-        mz * z,
-        mx * y,
-        my * z,
-        mz * x,
-    ];
-    for (sum, new) in sum.iter_mut().zip(new) {
-        *sum = *sum + new;
-    }
-}
-
-/// Sum of all lanes.
-fn sum_of_lanes(lanes: LaneArray) -> f32 {
-    lanes.into_iter().sum()
-}
-
 /// What holds a body: it leaves free the rotation about itself.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Pivot {
@@ -389,16 +254,6 @@ impl Pivot {
         let moment = axis.dot(inertia * axis);
         if moment > 0.0 { axis * (axis.dot(spin) / moment) } else { Vec3::ZERO }
     }
-}
-
-/// The angular momentum and the moment of inertia from the sums of [`sum_angular_momentum`].
-fn spin_and_inertia([x, y, z, xx, yy, zz, xy, yz, zx]: [f32; 9]) -> (Vec3, Mat3) {
-    let inertia = Mat3::from_cols(
-        Vec3::new(yy + zz, -xy, -zx),
-        Vec3::new(-xy, zz + xx, -yz),
-        Vec3::new(-zx, -yz, xx + yy),
-    );
-    (Vec3::new(x, y, z), inertia)
 }
 
 /// Adds the moment of inertia of a point of `mass` [kg] at `r` [m] from the centre.

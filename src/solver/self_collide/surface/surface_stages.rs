@@ -19,7 +19,8 @@ use crate::math::wide4::xyz;
 use crate::math::{max, min};
 use crate::solver::collide;
 use crate::solver::integrate::momentum;
-use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
+use crate::solver::integrate::momentum_sums::FreeParticles;
+use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::particle_stage::interleaved;
 use crate::solver::self_collide::surface::contact_solver::{self, ContactMass, SUPPORTED_SHARE};
 use crate::solver::self_collide::surface::detection::{DetectedContacts, Detector};
@@ -74,6 +75,11 @@ fn rest_gap<'a>(world: &'a World, pieces: &'a [u32], gap: f32) -> RestGap<'a> {
 }
 
 impl SurfaceCollision {
+    /// Whether layers touch in this substep.
+    pub(crate) fn has_contacts(&self) -> bool {
+        !self.active.is_empty()
+    }
+
     /// Detects contacts and intersections from the current positions, with `substeps` left in the
     /// tick.
     fn detect(&mut self, world: &World, substeps: u32) {
@@ -359,6 +365,7 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
             for projection in scratch.contacts.projections() {
                 scratch.predicted.add(projection.particle as usize, projection.correction);
             }
+            scratch.contacts.forget_late_pushes();
         }
     }
     let was_behind = surface.planes.project_all(&mut surface.motion.now) || !pushed.is_empty();
