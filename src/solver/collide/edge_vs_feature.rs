@@ -32,7 +32,7 @@ const CONE_TOLERANCE: f32 = 1.0e-3;
 const MIN_SINE2: f32 = 1.0e-4;
 
 /// Pairs that are farther apart than this many gaps before the first round are not tested.
-const CLOSE_GAPS: f32 = 4.0;
+pub(super) const CLOSE_GAPS: f32 = 4.0;
 
 /// The data that all pairs of one collider share in a substep.
 #[derive(Clone, Copy)]
@@ -149,7 +149,7 @@ fn edge_contact(
         let start_height = (from - edge.ends[0]).dot(normal);
         // An edge that has turned fast was not below the plane that it is below now.
         let start_height = match outward_normal(edge, start) {
-            Some(own) if start_height < -query.gap => {
+            Some(own) if start_height < 0.0 => {
                 max((start[0] - edge.ends[0]).dot(own), start_height)
             }
             _ => start_height,
@@ -236,7 +236,7 @@ fn vertex_contact(
         let [p, q, r] = start.map(|x| x - vertex.position);
         let own = (q - p).cross(r - p);
         let length = own.length().copysign(own.dot(vertex.outward));
-        let start_height = if start_height < -query.gap && length.abs() > TINY {
+        let start_height = if start_height < 0.0 && length.abs() > TINY {
             max(p.dot(own) / length, start_height)
         } else {
             start_height

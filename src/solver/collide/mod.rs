@@ -57,6 +57,9 @@ use glam::Vec3;
 /// penetrates, and the largest number while one is too deep.
 const TRIANGLE_ROUNDS: [u32; 2] = [2, 40];
 
+/// The largest number of times that the pairs of one collider are searched in a substep.
+const MAX_SEARCHES: u32 = 4;
+
 /// The largest number of rounds that roll triangles back.
 const MAX_ROLLBACK_ROUNDS: u32 = 16;
 
@@ -311,19 +314,35 @@ fn solve_colliders(
                 FeatureQuery { edges: &pairs.edges, vertices: &pairs.vertices, ..features };
             let (positions, close_pairs) =
                 (&mut contacts.local_positions, &mut contacts.close_pairs);
-            positions.clear();
-            if !(features.is_empty() && long_features.is_empty()) {
-                positions.extend((0..particles.w.len()).map(|i| particles.end_position(i)));
+            if features.is_empty() && long_features.is_empty() {
+                continue;
             }
-            edge_vs_feature::collect_close_pairs(&features, positions, close_pairs);
-            edge_vs_feature::collect_close_pairs(&long_features, positions, &mut pairs.close);
-            solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &|particles, pushes| {
-                pushes.reset(particles.w.len());
-                let sharp = edge_vs_feature::push(&features, particles, close_pairs, pushes);
-                let smooth = edge_vs_feature::push(&long_features, particles, &pairs.close, pushes);
-                pushes.apply(particles);
-                max(sharp, smooth)
-            });
+            // Rounds that push far may bring other pairs close.
+            for _ in 0..MAX_SEARCHES {
+                positions.clear();
+                positions.extend((0..particles.w.len()).map(|i| particles.end_position(i)));
+                edge_vs_feature::collect_close_pairs(&features, positions, close_pairs);
+                edge_vs_feature::collect_close_pairs(&long_features, positions, &mut pairs.close);
+                let pushed = solve_rounds(
+                    shape,
+                    &mut particles,
+                    &neighbours,
+                    gap,
+                    pushes,
+                    &|particles, pushes| {
+                        pushes.reset(particles.w.len());
+                        let sharp =
+                            edge_vs_feature::push(&features, particles, close_pairs, pushes);
+                        let smooth =
+                            edge_vs_feature::push(&long_features, particles, &pairs.close, pushes);
+                        pushes.apply(particles);
+                        max(sharp, smooth)
+                    },
+                );
+                if pushed <= triangle_gap * (edge_vs_feature::CLOSE_GAPS - 1.0) {
+                    break;
+                }
+            }
         } else if !(neighbours.triangle_blocks.is_empty() && long.is_empty()) {
             solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &|particles, pushes| {
                 triangle_vs_round::solve(
@@ -343,6 +362,8 @@ fn solve_colliders(
 /// Calls `push`, which pushes triangles out and returns the largest depth [m], until none is too
 /// deep. After each round the corners that it moved are pushed out as particles.
 ///
+/// Returns the sum of these depths over all rounds [m].
+///
 /// If that does not end, the corners of triangles that are still too deep go back to where the
 /// substep began, as the collider carries it along: there no triangle penetrated.
 fn solve_rounds(
@@ -352,19 +373,21 @@ fn solve_rounds(
     gap: f32,
     pushes: &mut PushAccumulator,
     push: &dyn Fn(&mut LocalParticles<'_>, &mut PushAccumulator) -> f32,
-) {
+) -> f32 {
+    let mut pushed = 0.0;
     for round in 1..=TRIANGLE_ROUNDS[1] {
         let deepest = push(particles, pushes);
         if deepest == 0.0 {
-            return;
+            return pushed;
         }
+        pushed += deepest;
         // A push of a triangle may push its corners into the shape elsewhere.
         for i in pushes.pushed() {
             let candidates = &neighbours.candidates;
             particle_vs_shape::solve_particle(shape, particles, candidates, *i as usize);
         }
         if round >= TRIANGLE_ROUNDS[0] && deepest <= gap * ROUND_TOLERANCE {
-            return;
+            return pushed;
         }
     }
     pushes.set_rollback(Some(particles.depenetration.max_step + gap * ROUND_TOLERANCE));
@@ -375,6 +398,7 @@ fn solve_rounds(
         }
     }
     pushes.set_rollback(None);
+    pushed
 }
 
 /// Returns the frames of a collider at the start and at the end of a substep.

@@ -109,10 +109,6 @@ impl Budget {
 
     fn update(&mut self, residual: Residual, tick: u32) {
         let (velocity, spin) = (residual.velocity.length(), residual.spin.length());
-        eprintln!(
-            "DBG {tick} {velocity:.6} {spin:.5} push {:.4} turn {:.4}",
-            residual.push, residual.turn
-        );
         self.velocity.update(velocity, tick);
         self.spin.update(spin, tick);
         let allowed = MAX_VELOCITY_ERROR + LAG * (residual.push + self.last[0]);
