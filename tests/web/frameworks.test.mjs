@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { execFile, spawn } from "node:child_process";
-import { chmod, copyFile, mkdtemp, readFile, readdir, rm } from "node:fs/promises";
+import { chmod, copyFile, mkdtemp, readFile, readdir, rm, writeFile } from "node:fs/promises";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -297,6 +297,30 @@ test("muslin/react: wind, a ball that moves through its ref, a pointer, a new gr
   assert.ok(await next.evaluate(({ isFreed }) => isFreed), "the cloth of a removed component is not freed");
   // react-three-fiber uses a class of three.js that is out of date.
   assert.deepEqual(complaints.filter((text) => !text.includes("THREE.Clock")), []);
+  await context.close();
+});
+
+test("the React example of the package's README draws a cloth that moves and can be grabbed", async () => {
+  const readme = await readFile(join(modules, "muslin/README.md"), "utf8");
+  const [, pasted] = /```jsx\n(.*?)```/s.exec(readme);
+  await writeFile(join(work, "react-readme/readme.jsx"), pasted);
+  const { context, page, complaints } = await open(browser, { viewport: { width: 320, height: 240 } }, url);
+  await page.goto(await buildWithVite("react-readme"));
+  await page.waitForSelector("canvas");
+  const shot = () => page.screenshot();
+  const first = await shot();
+  await page.waitForTimeout(1000);
+  assert.notDeepEqual(await shot(), first, "the picture does not change");
+  await page.evaluate(() => addEventListener("gotpointercapture", () => (window.isHeld = true), true));
+  await page.mouse.move(180, 100); // on the cloth, beside the ball
+  for (let tries = 0; !(await page.evaluate(() => window.isHeld)); tries++) {
+    assert.ok(tries < 20, "no press grabs the cloth");
+    await page.mouse.down();
+    await page.waitForTimeout(300);
+    await page.mouse.up();
+  }
+  assert.deepEqual(complaints.filter((text) => !text.includes("THREE.Clock")), []);
+  await page.screenshot({ path: join(work, "react-readme.png") });
   await context.close();
 });
 

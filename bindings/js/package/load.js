@@ -39,14 +39,20 @@ function useInstance({ exports }) {
 
 async function compile(source) {
   if (source instanceof WebAssembly.Module) return source;
-  if (isBytes(source)) return WebAssembly.compile(source);
+  if (isBytes(source)) return compileBytes(source);
   if (source instanceof Response) return compileResponse(source);
   if (source instanceof Request) return compileResponse(await fetch(source));
   check(source instanceof URL || typeof source === "string", "source", SOURCE_RULE);
   const read = await readAddress(`${source}`);
-  // Bytes are compiled synchronously: in Node 20, WebAssembly.compile() may never settle if V8
-  // collects garbage meanwhile.
-  return isBytes(read) ? new WebAssembly.Module(read) : compileResponse(read);
+  return isBytes(read) ? compileBytes(read) : compileResponse(read);
+}
+
+/**
+ * Compiles bytes, in Node synchronously: there, in version 20, WebAssembly.compile() may never
+ * settle if V8 collects garbage meanwhile.
+ */
+function compileBytes(bytes) {
+  return globalThis.process?.versions?.node ? new WebAssembly.Module(bytes) : WebAssembly.compile(bytes);
 }
 
 /** Returns the bytes of a file URL, or the response to any other address. */
@@ -65,7 +71,7 @@ async function compileResponse(response) {
   const answer = response.ok ? "is a page" : `answered ${response.status}`;
   check(isFound, "source", `be found, but ${response.url || "it"} ${answer}: ${ADVICE}`);
   if (type.startsWith("application/wasm")) return WebAssembly.compileStreaming(response);
-  return WebAssembly.compile(await response.arrayBuffer());
+  return compileBytes(await response.arrayBuffer());
 }
 
 /**

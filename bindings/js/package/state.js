@@ -11,6 +11,6 @@ export function setState(object, state) {
 /** Returns the state of an object or of a proxy of it. Throws if it is no `kind`. */
 export function stateOf(object, kind) {
   const read = object?.[STATE];
-  if (!read) throw new TypeError(`\`this\` must be a ${kind}, but is another object`);
+  if (!read) throw new TypeError(`\`this\` must be a ${kind}, but is another value`);
   return read();
 }
