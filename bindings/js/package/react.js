@@ -1,6 +1,15 @@
 // Entry point `muslin/react`: a cloth and its colliders as components of react-three-fiber.
 
-import { createContext, createElement, forwardRef, useContext, useImperativeHandle, useLayoutEffect, useRef, useState } from "react";
+import {
+  createContext,
+  createElement,
+  forwardRef,
+  useContext,
+  useImperativeHandle,
+  useLayoutEffect,
+  useRef,
+  useState,
+} from "react";
 import { useFrame, useThree } from "@react-three/fiber";
 import { Matrix4, Quaternion, Vector3 } from "three";
 import init, { Cloth as MuslinCloth } from "./index.js";
@@ -76,8 +85,8 @@ const ClothMesh = forwardRef(function ClothMesh(props, ref) {
   const { cloth } = geometry;
   const mesh = useRef(null);
   const colliders = useRef(new Set()).current;
-  const { camera, gl, events } = useThree();
-  const element = events.connected ?? gl.domElement;
+  const camera = useThree((state) => state.camera);
+  const element = useThree((state) => state.events.connected ?? state.gl.domElement);
   const options = useSame(pointers);
   useImperativeHandle(ref, () => mesh.current, []);
   useAssigned(cloth, "material", desc.material);
@@ -90,7 +99,7 @@ const ClothMesh = forwardRef(function ClothMesh(props, ref) {
   }, [geometry, camera, element, options]);
   useFrame((_, seconds) => {
     if (cloth.isFreed) return;
-    for (const follow of colliders) follow(mesh.current);
+    for (const follow of colliders) follow();
     if (!paused) cloth.advance(seconds);
     geometry.update();
   });
@@ -109,14 +118,19 @@ export function useCloth() {
   return useClothContext("useCloth()").cloth;
 }
 
-const [toCloth, pose] = [new Matrix4(), new Matrix4()];
-const [position, rotation, scale] = [new Vector3(), new Quaternion(), new Vector3()];
+const [pose, position, rotation, scale] = [new Matrix4(), new Vector3(), new Quaternion(), new Vector3()];
 
-/** Returns position and rotation of an object in the space of the cloth's mesh, as one list. */
+/**
+ * Returns position and rotation of an object in the space of the mesh that it is inside, as one
+ * list. It is the product of the matrices below the mesh, so it stays the same if the mesh moves.
+ */
 function poseOf(object, mesh) {
-  mesh.updateWorldMatrix(true, false);
-  object.updateWorldMatrix(true, false);
-  pose.multiplyMatrices(toCloth.copy(mesh.matrixWorld).invert(), object.matrixWorld).decompose(position, rotation, scale);
+  pose.identity();
+  for (let at = object; at !== mesh; at = at.parent) {
+    if (at.matrixAutoUpdate) at.updateMatrix();
+    pose.premultiply(at.matrix);
+  }
+  pose.decompose(position, rotation, scale);
   return [...position.toArray(), ...rotation.toArray()];
 }
 
@@ -124,7 +138,7 @@ function poseOf(object, mesh) {
 function addFollowing({ cloth, colliders }, desc, group, mesh) {
   let last = poseOf(group, mesh);
   const collider = cloth.addCollider({ ...desc, position: last.slice(0, 3), rotation: last.slice(3) });
-  const follow = (mesh) => {
+  const follow = () => {
     const next = poseOf(group, mesh);
     if (!isSame(next, last)) collider.moveTo(next.slice(0, 3), next.slice(3));
     last = next;
