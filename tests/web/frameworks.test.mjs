@@ -167,6 +167,12 @@ describe("the package works", { concurrency: 2 }, () => {
     assert.ok(await next.evaluate(({ isFreed }) => isFreed), "the cloth of a removed component is not freed");
     // react-three-fiber uses a class of three.js that is out of date.
     assert.deepEqual(complaints.filter((text) => !text.includes("THREE.Clock")), []);
+
+    await page.evaluate(() => window.controls.setShown(true));
+    await until(() => window.mesh !== null);
+    const thrown = page.waitForEvent("pageerror");
+    await page.evaluate(() => window.controls.setColumns(1));
+    assert.match((await thrown).message, /`columns` must be/);
     await context.close();
   });
 

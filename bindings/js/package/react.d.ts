@@ -54,7 +54,7 @@ export type ClothProps = MeshProps & {
  * you loaded it before, such as with `muslin/inline`. The ref gives the mesh, whose
  * `geometry.cloth` is the cloth.
  *
- * @throws while it renders, if the module cannot be loaded or if a field is wrong
+ * @throws to the nearest error boundary, if the module cannot be loaded or if a field is wrong
  */
 export const Cloth: ForwardRefExoticComponent<
   ClothProps & RefAttributes<Mesh<ClothGeometry, Material>>
@@ -72,7 +72,7 @@ export type ColliderProps = GroupProps &
  * (not in scale), also if you move that group through its ref in `useFrame`: the cloth is swept
  * along the way. If a field of the shape changes, a new collider is made.
  *
- * @throws while it renders, if it is not inside `<Cloth>` or if a field is wrong
+ * @throws to the nearest error boundary, if it is not inside `<Cloth>` or if a field is wrong
  */
 export const Collider: ForwardRefExoticComponent<ColliderProps & RefAttributes<Group>>;
 
