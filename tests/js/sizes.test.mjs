@@ -17,7 +17,7 @@ const MAX_SIZES = { "raw_bg.wasm": 384_000, "plain_bg.wasm": 355_000, "code.js":
 const MAX_SCRIPT_SIZE = 13_000;
 
 /** Scripts that only some pages load. */
-const OPTIONAL = /^(bytes|inline|no-wasm|heap|code|three|three-with|pointers)\.js$/;
+const OPTIONAL = /^(bytes|inline|no-wasm|heap|code|three|three-with|pointers|react)\.js$/;
 
 /**
  * V8 does not optimise a JavaScript function longer than this [B], and other engines are slow to
