@@ -168,7 +168,7 @@ pub(crate) fn project_out_in_substep(
     if world.scratch.contacts.impulses.is_empty() {
         return;
     }
-    let substeps = world.substeps;
+    let (substeps, max_step) = (world.substeps, MAX_DEPENETRATION_SPEED * world.regular_scheme().h);
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
@@ -181,8 +181,10 @@ pub(crate) fn project_out_in_substep(
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     let x = &mut world.particles.x;
+    // At the start of the substep some are nearer than the gap, and rise by a step.
+    let least = if starts.is_some() { max_step * 1.01 } else { MIN_PROJECTION };
     contacts.projections.retain(|projection| {
-        let is_deep = projection.correction.length_squared() > MIN_PROJECTION * MIN_PROJECTION;
+        let is_deep = projection.correction.length_squared() > least * least;
         if !is_deep {
             x.add(projection.particle as usize, -projection.correction);
         }

@@ -42,8 +42,10 @@ const TICK_SLACK: f32 = 0.2;
 /// Largest number of repeats of the non-crossing pass, each with the pairs of escaped particles.
 const MAX_REPEATS: u32 = 8;
 
-/// Rounds in which colliders and the non-crossing pass alternate.
+/// Rounds in which colliders and the non-crossing pass alternate, and rounds in which they roll
+/// back.
 const COLLIDER_ROUNDS: u32 = 6;
+const ROLLBACK_ROUNDS: u32 = 8;
 
 impl World {
     /// Rebuilds the data of surface collision, or drops it, by `settings.self_collision`.
@@ -384,23 +386,27 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
 ///
 /// Particles that the non-crossing pass moved into a collider are projected out of it and get a
 /// plane there, which the next pass respects. If that does not end, they go back to where the
-/// substep began, where they were outside and nothing crossed. What a moving collider still
-/// penetrates after that is projected out: colliders take precedence over non-crossing.
+/// substep began, as the collider carries that along, and so does what they cross there: at the start
+/// nothing was inside and nothing crossed. What a collider still penetrates after that is projected
+/// out: colliders take precedence over non-crossing.
 fn project_out_of_colliders(
     surface: &mut SurfaceCollision,
     world: &mut World,
     substep: u32,
     pushed: &mut Vec<u32>,
 ) {
-    for round in 0..=COLLIDER_ROUNDS {
-        let is_last = round == COLLIDER_ROUNDS;
-        let starts = is_last.then_some(&surface.motion.start[..]);
+    for round in 0..COLLIDER_ROUNDS + ROLLBACK_ROUNDS {
+        let rolls_back = round >= COLLIDER_ROUNDS;
+        let starts = rolls_back.then_some(&surface.motion.start[..]);
         collide::project_out_in_substep(world, substep, starts, pushed);
-        if pushed.is_empty() {
-            return;
-        }
-        let share = if is_last { 0.0 } else { SUPPORTED_SHARE };
+        let Some(first) = pushed.first() else { return };
+        let first = *first as usize;
+        let share = if rolls_back { 0.0 } else { SUPPORTED_SHARE };
         support_projected(surface, world, pushed, share);
+        if rolls_back {
+            let SweptParticles { start, now, rollback_displacement, .. } = &mut surface.motion;
+            *rollback_displacement = xyz(&now[first]) - xyz(&start[first]);
+        }
         surface.enforce_non_crossing(world);
         interleaved::scatter(&surface.motion.now, &mut world.particles.x);
     }
