@@ -40,7 +40,7 @@ pub(crate) const MAX_GAP: f32 = 0.5;
 const TICK_SLACK: f32 = 0.2;
 
 /// Largest number of repeats of the non-crossing pass, each with the pairs of escaped particles.
-const MAX_REPEATS: u32 = 8;
+const MAX_REPEATS: u32 = 12;
 
 /// Rounds in which colliders and the non-crossing pass alternate, and rounds in which they roll
 /// back.
@@ -140,10 +140,12 @@ impl SurfaceCollision {
         }
     }
 
-    /// Widens the bounds of escaped particles and adds their pairs to the speculative contacts.
-    /// Returns whether all particles are within their bounds now.
-    fn detect_escaped(&mut self, world: &World, may_roll_back: bool) -> bool {
+    /// Widens the bounds of escaped particles, and adds to the speculative contacts their pairs and
+    /// those where the cloth folded since the last detection, when all particles moved or those of
+    /// the last repeat. Returns whether all particles are within their bounds now.
+    fn detect_escaped(&mut self, world: &World, may_roll_back: bool, is_first: bool) -> bool {
         let Self {
+            graph,
             motion,
             tick_bounds,
             bvh,
@@ -156,9 +158,11 @@ impl SurfaceCollision {
         } = self;
         let Widened { any, are_all_within } =
             motion.widen_bounds(world.mean_edge, *gap, may_roll_back);
-        if !any {
+        let moved = (!is_first).then(|| graph.moved());
+        if !any && moved.is_some_and(<[u32]>::is_empty) {
             return are_all_within;
         }
+        motion.set_moved(moved);
         let all = 0..motion.now.len() as u32;
         let escaped = all.filter(|i| motion.has_escaped(*i));
         if !tick_bounds.contain(motion) {
@@ -201,7 +205,7 @@ impl SurfaceCollision {
         let mut known = 0;
         for repeat in 0..=MAX_REPEATS {
             let is_last = repeat == MAX_REPEATS;
-            let were_within = self.detect_escaped(world, may_roll_back || is_last);
+            let were_within = self.detect_escaped(world, may_roll_back || is_last, repeat == 0);
             let Self {
                 contacts,
                 speculative,
@@ -231,16 +235,11 @@ impl SurfaceCollision {
                 non_crossing::roll_back(contacts, motion, graph, leaders, vectors);
                 has_rolled_back = true;
             }
-            let are_within = || {
-                if were_within {
-                    motion.are_within_bounds(graph.moved().iter().copied())
-                } else {
-                    motion.are_within_bounds(0..motion.now.len() as u32)
-                }
-            };
+            let are_within = || were_within || motion.are_within_bounds(0..motion.now.len() as u32);
             let are_separated =
                 || speculative::are_separated(world.level, speculative, &motion.now, graph);
-            if (is_done || may_roll_back) && are_within() && are_separated() {
+            // What moved may have left its bounds, or folded the cloth.
+            if is_done && graph.moved().is_empty() && are_within() && are_separated() {
                 break;
             }
             // Roll-back needs wider bounds and all pairs as contacts, so it waits for the next
