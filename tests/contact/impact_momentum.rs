@@ -1,0 +1,78 @@
+//! A free sheet that a fast ball hits: its momentum changes by what gravity and the reported impulses
+//! explain, in every tick.
+
+use crate::shapes::{sphere, upright_sheet, with_bound, with_surface, without_losses};
+use muslin::Cloth;
+use muslin::glam::{DVec3, Quat, Vec3};
+
+/// Largest unexplained change in a tick, of the mean velocity [m/s] and of the angular velocity
+/// [rad/s], as a share of the speed of the ball.
+const MOST: [f64; 2] = [1.0e-5, 5.0e-4];
+
+/// Mass, centre of mass, momentum, and angular momentum about the origin.
+fn momentum(cloth: &Cloth) -> (f64, DVec3, DVec3, DVec3) {
+    let mut sums = (0.0, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+    for i in 0..cloth.particle_count() {
+        let m = f64::from(cloth.mass(i).unwrap());
+        let (x, v) = (cloth.position(i).unwrap().as_dvec3(), cloth.velocity(i).unwrap().as_dvec3());
+        sums = (sums.0 + m, sums.1 + x * m, sums.2 + v * m, sums.3 + x.cross(v) * m);
+    }
+    (sums.0, sums.1 / sums.0, sums.2, sums.3)
+}
+
+/// Moment of inertia about the centre of mass, of the axis with the least.
+fn least_inertia(cloth: &Cloth, center: DVec3) -> f64 {
+    let about = |axis: DVec3| -> f64 {
+        (0..cloth.particle_count())
+            .map(|i| {
+                let r = cloth.position(i).unwrap().as_dvec3() - center;
+                f64::from(cloth.mass(i).unwrap()) * r.cross(axis).length_squared()
+            })
+            .sum()
+    };
+    [DVec3::X, DVec3::Y, DVec3::Z].map(about).into_iter().fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn a_free_sheet_takes_up_just_the_impulses_of_a_fast_ball() {
+    for (speed, is_bounded, is_surface) in
+        [(3.0, false, false), (5.0, true, false), (15.0, false, true), (50.0, true, true)]
+    {
+        let mut desc = without_losses(upright_sheet(20, 1.0));
+        if is_bounded {
+            desc = with_bound(desc, 0.05);
+        }
+        if is_surface {
+            desc = with_surface(desc);
+        }
+        let mut cloth = Cloth::grid(&desc).unwrap();
+        let center = momentum(&cloth).1;
+        // Off the centre, so that the sheet turns too.
+        let mut at = center.as_vec3() + Vec3::new(0.2, 0.1, -0.35);
+        let ball = cloth.add_collider(&sphere(0.2, at)).unwrap();
+        let (mut pushes, mut turn) = (0.0, 0.0_f64);
+        for tick in 0..12 {
+            at.z += speed / 60.0;
+            cloth.move_collider(ball, at, Quat::IDENTITY).unwrap();
+            let (mass, c0, p0, l0) = momentum(&cloth);
+            cloth.step(1);
+            let (_, c1, p1, l1) = momentum(&cloth);
+            let weight = cloth.settings().gravity.as_dvec3() * (mass / 60.0);
+            let impulse = cloth.collider_impulse(ball).unwrap();
+            let (j, n) = (impulse.linear.as_dvec3(), impulse.angular.as_dvec3());
+            let linear = p1 - p0 - weight + j;
+            let angular = l1 - l0 - ((c0 + c1) * 0.5).cross(weight) + n + at.as_dvec3().cross(j);
+            let spin = (angular - c1.cross(linear)) / least_inertia(&cloth, c1);
+            let shares =
+                [linear.length() / mass, spin.length()].map(|error| error / f64::from(speed));
+            assert!(
+                shares[0] < MOST[0] && shares[1] < MOST[1],
+                "tick {tick} at {speed} m/s, bound {is_bounded}, surface {is_surface}: {shares:?}"
+            );
+            pushes += j.length() / mass;
+            turn = turn.max((l1 - c1.cross(p1)).length() / least_inertia(&cloth, c1));
+        }
+        assert!(pushes > 0.5 * f64::from(speed), "the ball gives {pushes} m/s");
+        assert!(turn > 0.5, "the sheet turns by {turn} rad/s");
+    }
+}
