@@ -7,7 +7,7 @@ use muslin::glam::{DVec3, Quat, Vec3};
 
 /// Largest unexplained change in a tick, of the mean velocity [m/s] and of the angular velocity
 /// [rad/s], as a share of the speed of the ball.
-const MOST: [f64; 2] = [1.0e-5, 5.0e-4];
+const MOST: [f64; 2] = [1.0e-5, 4.0e-3];
 
 /// Mass, centre of mass, momentum, and angular momentum about the origin.
 fn momentum(cloth: &Cloth) -> (f64, DVec3, DVec3, DVec3) {

@@ -35,6 +35,8 @@ pub(crate) struct ContactScratch {
     /// The impulse of all colliders that the velocities of the cloth took up in this substep, about
     /// the world origin.
     pub arrived: Impulse,
+    /// The collider that the largest part of it came from, among the live ones.
+    pub first_pusher: usize,
     /// For each live collider, what later stages of this substep pushed out of it: mass times
     /// displacement [kg m], and its moment about the world origin [kg m²].
     pub(super) late_pushes: Vec<Impulse>,
@@ -55,6 +57,14 @@ impl ContactScratch {
     /// What the last projection of particles moved, as contacts.
     pub fn projections(&self) -> &[ColliderContact] {
         &self.projections
+    }
+
+    /// Adds to the angular impulse on the cloth, as if it came from the collider that pushed it most
+    /// in this substep.
+    pub fn add_torque(&mut self, torque: Vec3) {
+        if let Some(impulse) = self.impulses.get_mut(self.first_pusher) {
+            impulse.angular -= torque;
+        }
     }
 
     /// Forgets the pushes of later stages, for those that give no velocity.

@@ -96,6 +96,7 @@ pub(crate) fn begin_tick(world: &mut World) {
     let scratch = &mut world.scratch.contacts;
     scratch.collider_contacts.clear();
     scratch.long.invalidate();
+    scratch.first_pusher = 0;
     scratch.impulses.clear();
     scratch.impulses.extend(world.colliders.iter().map(|_| Impulse::default()));
     broad_phase::update_swept_bounds(world);

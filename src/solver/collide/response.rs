@@ -12,12 +12,12 @@
 //!
 //! The impulse on the collider is what the velocities of the cloth took up in the substep. The
 //! second-order scheme spreads the velocity of a correction over the next substeps, with weights that
-//! fall by `extrapolation` (see [`final_velocity`]), so the rest of it is pending:
+//! fall by `extrapolation` = e, so the rest of it is pending:
 //!
 //! ```text
-//! now     = m (correction · new_weight / h + v − v before the response)
-//! later   = m (v_final − v_final before the response + …) − now
-//! impulse = now + (1 − extrapolation) pending          pending ← extrapolation · pending + later
+//! now     = m (correction · new_weight / h + Δv)               Δ: by the response
+//! later   = m (e correction · new_weight / h + Δ(v_extrapolated − v)) / (1 − e)
+//! impulse = now + (1 − e) pending                              pending ← e · pending + later
 //! ```
 //! Reads the contacts of the substep, positions, predicted positions and displacements; writes
 //! velocities, history and `scratch.contacts.impulses`.
@@ -37,8 +37,8 @@ struct ResponseParameters {
     h: f32,
     /// The acceleration that a new history contains [m/s²].
     gravity: Vec3,
-    /// The factor of a velocity change that is still to come, 1 / (1 − extrapolation); see
-    /// [`final_velocity`].
+    /// 1 / (1 − extrapolation): each substep leaves a particle the fraction `extrapolation` of its last
+    /// change of velocity, so by its history alone it reaches v + remaining (v_extrapolated − v).
     remaining: f32,
     /// Slower approaches are resting or sliding contacts [m/s].
     resting_speed: f32,
@@ -80,6 +80,7 @@ pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let contacts = &mut scratch.contacts;
     contacts.arrived = Impulse::default();
+    let mut strongest = 0.0;
     let mut all = contacts.collider_contacts.iter().peekable();
     let bodies = world.colliders.iter_mut().zip(&mut contacts.impulses).enumerate();
     for (at, (body, impulse)) in bodies {
@@ -104,19 +105,15 @@ pub(crate) fn resolve_velocities(world: &mut World, decay: f32) {
         arrived.add_scaled(body.pending.about(-position), decay * (scheme.extrapolation - 1.0));
         impulse.add_scaled(arrived, -1.0);
         contacts.arrived.add_scaled(arrived, 1.0);
+        let strength = arrived.linear.length_squared();
+        if strength > strongest {
+            (strongest, contacts.first_pusher) = (strength, at);
+        }
         let mut pending = Impulse::default();
         pending.add_scaled(body.pending, decay * scheme.extrapolation);
         pending.add_scaled(gained.later.about(position), -1.0);
         body.pending = pending;
     }
-}
-
-/// Returns the velocity that a particle with this velocity and extrapolated velocity reaches by its
-/// history alone: each substep leaves it the fraction `extrapolation` of its last change of
-/// velocity.
-#[inline(always)]
-fn final_velocity([v, v_extrapolated]: [Vec3; 2], remaining: f32) -> Vec3 {
-    v + (v_extrapolated - v) * remaining
 }
 
 /// Resolves the velocity of one contact and returns the momentum that the particle got [kg m/s], at
@@ -150,9 +147,8 @@ fn resolve_contact(
         after
     };
     let of_correction = contact.correction * parameters.velocity_per_correction;
-    let now = after[0] - before[0] + of_correction;
-    let change = final_velocity(after, parameters.remaining)
-        - final_velocity(before, parameters.remaining)
-        + of_correction * parameters.remaining;
-    [now * p.mass[i], (change - now) * p.mass[i]]
+    let [v, v_extrapolated] = [0, 1].map(|k| after[k] - before[k]);
+    let later =
+        of_correction * (parameters.remaining - 1.0) + (v_extrapolated - v) * parameters.remaining;
+    [(v + of_correction) * p.mass[i], later * p.mass[i]]
 }

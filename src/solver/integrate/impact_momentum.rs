@@ -2,14 +2,17 @@
 //! impulses on colliders explain.
 //!
 //! ```text
-//! P' = decay (P + h Σ m a) + J              c, c': centre of mass before and after
-//! S' = decay (S + h Σ m r × a) + N          r = x − c, and all torques about c
+//! P' = decay (P + h Σ m a) + J
+//! S' = decay (S + h Σ m r × a) + N          r = x − c, c: centre of mass
 //! ```
-//! P and S: linear and angular momentum; J and N: what arrived from colliders in this substep (see
-//! `collide::response`). The solvers of the substep break this by a little: at an impact the links
+//! P: linear momentum; S: angular momentum about c; J and N: what arrived from colliders in this
+//! substep, N about c (see `collide::response`). The solvers of the substep break this by a little: at an impact the links
 //! of an unconverged cloth move far, velocities are extrapolated along straight lines, and the
 //! non-crossing pass rolls particles back. So the rigid motion with the momenta of the error is
 //! subtracted from the velocities. Positions stay, where contacts hold.
+//!
+//! Colliders push c off the path that P and the acceleration explain, which changes the angular
+//! momentum about a fixed point by Δc × P. The reported angular impulses count it.
 //!
 //! `momentum` does nearly the same for the corrections of cloth that touches nothing. Cloth that
 //! rests or slides is left alone: its errors are as small as those of rounding.
@@ -27,16 +30,17 @@ use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::world::World;
 use glam::Vec3;
 
-/// Momenta that a cloth should have at the end of a substep, about a fixed point [m].
+/// Momenta that a cloth should have at the end of a substep, before the impulses of colliders.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ExpectedMomentum {
+    mass: f32,
+    /// The centre of mass at the start [m].
     center: Vec3,
     linear: Vec3,
-    angular: Vec3,
-    mass: f32,
-    /// The mean acceleration by gravity and air, times the length of the substep [m/s].
-    change: Vec3,
-    decay: f32,
+    /// The angular momentum about the centre of mass.
+    spin: Vec3,
+    /// The mean of the linear momenta at the start and at the end.
+    mean_momentum: Vec3,
 }
 
 /// Before velocities are updated: stores the momentum that gravity and air give to the cloth, if it
@@ -74,12 +78,11 @@ pub(crate) fn begin(world: &mut World, decay: f32) {
         |vectors, sum: Vec3| spin_and_inertia(level, free(vectors), [center, sum * inverse_mass]).0;
     let (spin_at_start, torque) = (spin(v, momentum), spin(a, pull));
     scratch.expected_momentum = Some(ExpectedMomentum {
+        mass,
         center,
         linear: (momentum + pull * h) * decay,
-        angular: (spin_at_start + torque * h) * decay,
-        mass,
-        change: pull * (h * inverse_mass),
-        decay,
+        spin: (spin_at_start + torque * h) * decay,
+        mean_momentum: (momentum + pull * (h * 0.5)) * decay,
     });
 }
 
@@ -100,15 +103,11 @@ pub(crate) fn restore(world: &mut World) {
     let (spin, inertia) = spin_and_inertia(world.level, free, [center, velocity]);
     let moved = center - expected.center;
     let linear = expected.linear + arrived.linear - momentum;
-    let pull = expected.change * (expected.mass * expected.decay);
-    let angular = expected.angular
-        + (moved * 0.5).cross(pull)
-        + (arrived.angular - expected.center.cross(arrived.linear))
-        - (spin + moved.cross(momentum));
+    let torque = arrived.angular - center.cross(arrived.linear);
     let motion = RigidMotion::with_momentum(
         center,
         linear * inverse_mass,
-        angular - moved.cross(linear),
+        expected.spin + torque - spin,
         inertia,
     );
     for i in 0..p.len() {
@@ -117,6 +116,7 @@ pub(crate) fn restore(world: &mut World) {
         p.v_extrapolated.add(i, change);
         p.displacement.add(i, change * h);
     }
+    world.scratch.contacts.add_torque(moved.cross(expected.mean_momentum));
 }
 
 /// Whether this substep may break the momentum by more than rounding and the correction of

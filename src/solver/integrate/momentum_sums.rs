@@ -209,6 +209,11 @@ pub(crate) struct PointSums {
 }
 
 impl PointSums {
+    /// The centre of mass [m].
+    pub fn mean_position(&self) -> DVec3 {
+        if self.mass > 0.0 { self.center / self.mass } else { self.center }
+    }
+
     /// Sums points given as position, displacement and mass.
     pub fn of(points: impl Iterator<Item = (Vec3, Vec3, f32)>) -> Self {
         points.fold(Self::default(), |sums, (x, displacement, mass)| {

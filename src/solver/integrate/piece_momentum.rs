@@ -19,11 +19,12 @@ use crate::solver::integrate::momentum::{
     self, MAX_FIXED, compute_angular_errors, compute_corrections, fixed_particles,
     has_collider_impulse, may_add_spin, pivot,
 };
+use crate::solver::integrate::momentum_sums::PointSums;
 use crate::solver::integrate::rigid_motion::{Pivot, RigidMotion};
 use crate::solver::self_collide::particle_contacts;
 use crate::solver::world::World;
 use crate::state::pins::Pin;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Before particle collision: removes the momentum that internal stages added to each piece since
 /// prediction, and joins the pieces that will exchange momentum.
@@ -55,32 +56,41 @@ pub(crate) fn begin_last_phase(world: &mut World) {
 
 /// Ends the phase after the last substep: gives each free piece the momentum and the angular momentum
 /// back that it had before. Hard constraints move particles without a force, and what a collider
-/// gave to a few particles belongs to the whole piece.
+/// gave to a few particles belongs to the whole piece. Where colliders push the centre of mass off its
+/// path, the angular momentum about it stays, and they get the rest as an angular impulse.
 pub(crate) fn end_last_phase(world: &mut World) {
     if world.pins.has_soft() || !world.anchors.is_empty() {
         return;
     }
     let h = world.regular_scheme().h;
+    let is_pushed = has_collider_impulse(world);
     let (p, scratch) = (&mut world.particles, &world.scratch);
     let (x, v) = (&scratch.predicted, &scratch.correction);
     if p.x == *x && p.v == *v {
         return;
     }
+    let mut torques = DVec3::ZERO;
     for piece in scratch.pieces.members.iter() {
         let particles = || piece.iter().map(|i| *i as usize);
         if particles().any(|i| p.w[i] <= 0.0) {
             continue;
         }
-        let motion = RigidMotion::between(
-            || particles().map(|i| (x.get(i), v.get(i), p.mass[i])),
-            || particles().map(|i| (p.x.get(i), p.v.get(i), p.mass[i])),
-        );
+        let before = PointSums::of(particles().map(|i| (x.get(i), v.get(i), p.mass[i])));
+        let now = || particles().map(|i| (p.x.get(i), p.v.get(i), p.mass[i]));
+        let shift = PointSums::of(now()).mean_position() - before.mean_position();
+        let torque = if is_pushed { shift.cross(before.momentum) } else { DVec3::ZERO };
+        let motion = RigidMotion::between(PointSums { spin: before.spin + torque, ..before }, now);
         for i in particles() {
             let change = motion.displacement_at(p.x.get(i));
             p.v.add(i, change);
             p.v_extrapolated.add(i, change);
             p.displacement.add(i, change * h);
         }
+        torques += torque;
+    }
+    let pusher = scratch.contacts.first_pusher;
+    if let Some(body) = world.colliders.iter_mut().nth(pusher) {
+        body.impulse.angular -= torques.as_vec3();
     }
 }
 

@@ -88,21 +88,18 @@ impl RigidMotion {
         )
     }
 
-    /// The rigid motion that gives points the linear and angular momentum of `before`, if they have
-    /// those of `now`. Points are given as position, displacement and mass.
-    pub fn between<I: Iterator<Item = (Vec3, Vec3, f32)>, J: Iterator<Item = (Vec3, Vec3, f32)>>(
-        before: impl Fn() -> I,
-        now: impl Fn() -> J,
+    /// The rigid motion that gives points, if they have the momenta of `now`, the linear and angular
+    /// momentum of the sums `before`. Points are given as position, displacement and mass.
+    pub fn between<I: Iterator<Item = (Vec3, Vec3, f32)>>(
+        before: PointSums,
+        now: impl Fn() -> I,
     ) -> Self {
-        let (old, new) = (PointSums::of(before()), PointSums::of(now()));
-        let fitted = Self::translation_from_sums(
-            new.mass as f32,
-            new.center.as_vec3(),
-            (old.momentum - new.momentum).as_vec3(),
-        );
+        let new = PointSums::of(now());
+        let linear = before.momentum - new.momentum;
+        let fitted =
+            Self::translation_from_sums(new.mass as f32, new.center.as_vec3(), linear.as_vec3());
         let (_, inertia) = fitted.spin_and_inertia_of_points(now());
-        let linear = old.momentum - new.momentum;
-        let spin = old.spin - new.spin - fitted.center.as_dvec3().cross(linear);
+        let spin = before.spin - new.spin - new.mean_position().cross(linear);
         Self { rotation: Pivot::Nothing.rotation(inertia, spin.as_vec3()), ..fitted }
     }
 
