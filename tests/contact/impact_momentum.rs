@@ -6,8 +6,8 @@ use muslin::Cloth;
 use muslin::glam::{DVec3, Quat, Vec3};
 
 /// Largest unexplained change in a tick, of the mean velocity [m/s] and of the angular velocity
-/// [rad/s], as a share of the speed of the ball.
-const MOST: [f64; 2] = [1.0e-5, 4.0e-3];
+/// [rad/s].
+const MOST: [f64; 2] = [1.0e-3, 2.0e-2];
 
 /// Mass, centre of mass, momentum, and angular momentum about the origin.
 fn momentum(cloth: &Cloth) -> (f64, DVec3, DVec3, DVec3) {
@@ -20,17 +20,14 @@ fn momentum(cloth: &Cloth) -> (f64, DVec3, DVec3, DVec3) {
     (sums.0, sums.1 / sums.0, sums.2, sums.3)
 }
 
-/// Moment of inertia about the centre of mass, of the axis with the least.
-fn least_inertia(cloth: &Cloth, center: DVec3) -> f64 {
-    let about = |axis: DVec3| -> f64 {
-        (0..cloth.particle_count())
-            .map(|i| {
-                let r = cloth.position(i).unwrap().as_dvec3() - center;
-                f64::from(cloth.mass(i).unwrap()) * r.cross(axis).length_squared()
-            })
-            .sum()
-    };
-    [DVec3::X, DVec3::Y, DVec3::Z].map(about).into_iter().fold(f64::INFINITY, f64::min)
+/// Polar moment of inertia about the centre of mass.
+fn polar_inertia(cloth: &Cloth, center: DVec3) -> f64 {
+    (0..cloth.particle_count())
+        .map(|i| {
+            let r = cloth.position(i).unwrap().as_dvec3() - center;
+            f64::from(cloth.mass(i).unwrap()) * r.length_squared()
+        })
+        .sum()
 }
 
 #[test]
@@ -62,15 +59,14 @@ fn a_free_sheet_takes_up_just_the_impulses_of_a_fast_ball() {
             let (j, n) = (impulse.linear.as_dvec3(), impulse.angular.as_dvec3());
             let linear = p1 - p0 - weight + j;
             let angular = l1 - l0 - ((c0 + c1) * 0.5).cross(weight) + n + at.as_dvec3().cross(j);
-            let spin = (angular - c1.cross(linear)) / least_inertia(&cloth, c1);
-            let shares =
-                [linear.length() / mass, spin.length()].map(|error| error / f64::from(speed));
+            let spin = (angular - c1.cross(linear)) / polar_inertia(&cloth, c1);
+            let errors = [linear.length() / mass, spin.length()];
             assert!(
-                shares[0] < MOST[0] && shares[1] < MOST[1],
-                "tick {tick} at {speed} m/s, bound {is_bounded}, surface {is_surface}: {shares:?}"
+                errors[0] < MOST[0] && errors[1] < MOST[1],
+                "tick {tick} at {speed} m/s, bound {is_bounded}, surface {is_surface}: {errors:?}"
             );
             pushes += j.length() / mass;
-            turn = turn.max((l1 - c1.cross(p1)).length() / least_inertia(&cloth, c1));
+            turn = turn.max((l1 - c1.cross(p1)).length() / polar_inertia(&cloth, c1));
         }
         assert!(pushes > 0.5 * f64::from(speed), "the ball gives {pushes} m/s");
         assert!(turn > 0.5, "the sheet turns by {turn} rad/s");

@@ -30,6 +30,11 @@ use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::world::World;
 use glam::Vec3;
 
+/// Impulse of a substep from which on cloth that touches a collider hits it, in units of its weight
+/// times the length of the substep. Below that the cloth rests: the rounding of its solvers, which
+/// friction takes up, would push it around.
+const IMPACT: f32 = 4.0;
+
 /// Momenta that a cloth should have at the end of a substep, before the impulses of colliders.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ExpectedMomentum {
@@ -94,6 +99,10 @@ pub(crate) fn restore(world: &mut World) {
     };
     let h = world.regular_scheme().h;
     let arrived = world.scratch.contacts.arrived;
+    let resting_impulse = expected.mass * world.settings.gravity.length() * h;
+    if rests(world) && arrived.linear.length() <= IMPACT * resting_impulse {
+        return;
+    }
     let p = &mut world.particles;
     let free =
         FreeParticles { x: p.x.slices(), displacement: p.v.slices(), mass: &p.mass, w: &p.w };
@@ -119,6 +128,12 @@ pub(crate) fn restore(world: &mut World) {
     world.scratch.contacts.add_torque(moved.cross(expected.mean_momentum));
 }
 
+/// Whether the cloth touches a collider and does not move fast.
+fn rests(world: &World) -> bool {
+    world.substeps <= world.settings.substeps
+        && !world.scratch.contacts.collider_contacts.is_empty()
+}
+
 /// Whether this substep may break the momentum by more than rounding and the correction of
 /// `momentum`: the cloth hits a collider, leaves one at high speed, an impact of an earlier substep
 /// still arrives, or its layers touch in flight. Cloth that rests or slides does none of this.
@@ -135,7 +150,7 @@ fn may_lose_momentum(world: &World) -> bool {
         let approach = contact.approach_velocity - contact.surface_velocity;
         -approach.dot(contact.normal) > resting_speed
     };
-    if world.substeps > world.settings.substeps || contacts.iter().any(is_fast) {
+    if !rests(world) || contacts.iter().any(is_fast) {
         return true;
     }
     let arriving: f32 = world.colliders.iter().map(|body| body.pending.linear.length()).sum();
