@@ -128,10 +128,12 @@ pub(crate) fn restore(world: &mut World) {
     world.scratch.contacts.add_torque(moved.cross(expected.mean_momentum));
 }
 
-/// Whether the cloth touches a collider and does not move fast.
+/// Whether the cloth touches colliders, none of which moves, and does not move fast.
 fn rests(world: &World) -> bool {
+    let contacts = &world.scratch.contacts.collider_contacts;
     world.substeps <= world.settings.substeps
-        && !world.scratch.contacts.collider_contacts.is_empty()
+        && !contacts.is_empty()
+        && contacts.iter().all(|contact| contact.surface_velocity == Vec3::ZERO)
 }
 
 /// Whether this substep may break the momentum by more than rounding and the correction of
