@@ -33,7 +33,7 @@ use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
 use crate::solver::bend::bend_scratch::BendScratch;
 use crate::solver::collide::contact_scratch::ContactScratch;
-use crate::solver::integrate::impact_momentum::ExpectedMomentum;
+use crate::solver::integrate::expected_momentum::ExpectedMomentum;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
 use crate::solver::profile::Profile;

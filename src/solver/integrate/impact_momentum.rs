@@ -22,6 +22,7 @@
 //! Invariant: cloth that something holds, or in several pieces, stays as it is.
 
 use crate::solver::collide::collider_contact::ColliderContact;
+use crate::solver::integrate::expected_momentum::ExpectedMomentum;
 use crate::solver::integrate::momentum::has_collider_impulse;
 use crate::solver::integrate::momentum_sums::{
     FreeParticles, LinearSums, spin_and_inertia, total_mass,
@@ -33,20 +34,7 @@ use glam::Vec3;
 /// Impulse of a substep from which on cloth that touches a collider hits it, in units of its weight
 /// times the length of the substep. Below that the cloth rests: the rounding of its solvers, which
 /// friction takes up, would push it around.
-const IMPACT: f32 = 4.0;
-
-/// Momenta that a cloth should have at the end of a substep, before the impulses of colliders.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ExpectedMomentum {
-    mass: f32,
-    /// The centre of mass at the start [m].
-    center: Vec3,
-    linear: Vec3,
-    /// The angular momentum about the centre of mass.
-    spin: Vec3,
-    /// The mean of the linear momenta at the start and at the end.
-    mean_momentum: Vec3,
-}
+pub(super) const IMPACT: f32 = 4.0;
 
 /// Before velocities are updated: stores the momentum that gravity and air give to the cloth, if it
 /// is free and hits a collider. `decay`: the factor of velocities by damping.

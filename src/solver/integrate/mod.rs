@@ -5,6 +5,7 @@
 //! `velocities` ends each substep. `momentum` removes spurious spin, `recover` replaces invalid
 //! numbers, and `sleep` skips the ticks of a cloth at rest.
 
+pub(crate) mod expected_momentum;
 pub(crate) mod forces;
 pub(crate) mod impact_momentum;
 pub(crate) mod momentum;

@@ -15,6 +15,8 @@
 //! Invariant: sums run over the particles in ascending order, so the bits depend neither on the SIMD
 //! level nor on how the pieces came about.
 
+use crate::math::columns::Columns;
+use crate::solver::integrate::impact_momentum::IMPACT;
 use crate::solver::integrate::momentum::{
     self, MAX_FIXED, compute_angular_errors, compute_corrections, fixed_particles,
     has_collider_impulse, may_add_spin, pivot,
@@ -70,12 +72,20 @@ pub(crate) fn end_last_phase(world: &mut World) {
         return;
     }
     let mut torques = DVec3::ZERO;
+    let pushes: f32 = world.colliders.iter().map(|body| body.impulse.linear.length()).sum();
+    let pull = world.settings.gravity.length() * world.settings.tick;
     for piece in scratch.pieces.members.iter() {
         let particles = || piece.iter().map(|i| *i as usize);
         if particles().any(|i| p.w[i] <= 0.0) {
             continue;
         }
-        let before = PointSums::of(particles().map(|i| (x.get(i), v.get(i), p.mass[i])));
+        let start =
+            |x: &Columns| PointSums::of(particles().map(|i| (x.get(i), v.get(i), p.mass[i])));
+        let mut before = start(x);
+        if is_pushed && pushes <= IMPACT * before.mass as f32 * pull {
+            // Cloth that rests is pushed a little in every tick; that must not turn it.
+            before = start(&p.x);
+        }
         let now = || particles().map(|i| (p.x.get(i), p.v.get(i), p.mass[i]));
         let shift = PointSums::of(now()).mean_position() - before.mean_position();
         let torque = if is_pushed { shift.cross(before.momentum) } else { DVec3::ZERO };
