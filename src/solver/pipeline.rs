@@ -131,6 +131,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     let is_bounded = world.settings.max_stretch > 0.0;
     if is_bounded || !world.anchors.is_empty() {
         timed!(world, Colliders, collide::begin_last_phase(world));
+        timed!(world, Velocities, piece_momentum::begin_last_phase(world));
         timed!(world, Pairs, surface_stages::begin_tick(world));
         if is_bounded {
             timed!(world, Limit, strain_limit::enforce(world));

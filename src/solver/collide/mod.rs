@@ -48,7 +48,6 @@ use crate::solver::collide::local_particles::{ContactMaterial, Depenetration, Lo
 use crate::solver::collide::mid_phase::PairSearch;
 use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
-use crate::solver::integrate::piece_momentum;
 use crate::solver::world::World;
 use crate::state::colliders::{ColliderBody, Impulse};
 use glam::Vec3;
@@ -116,7 +115,7 @@ pub(crate) fn finish_tick(world: &mut World) {
 /// particles start at the current positions. The start of the substep may be inside a collider that
 /// has moved on since.
 pub(crate) fn begin_last_phase(world: &mut World) {
-    piece_momentum::begin_last_phase(world);
+    world.scratch.predicted.copy_from(&world.particles.x);
     world.scratch.displacement.fill(Vec3::ZERO);
 }
 

@@ -50,9 +50,9 @@ pub(crate) fn remove_internal_momentum(world: &mut World) {
     }
 }
 
-/// Starts the phase after the last substep: stores positions and velocities.
+/// Starts the phase after the last substep: stores the velocities. `collide::begin_last_phase` stores
+/// the positions.
 pub(crate) fn begin_last_phase(world: &mut World) {
-    world.scratch.predicted.copy_from(&world.particles.x);
     world.scratch.correction.copy_from(&world.particles.v);
 }
 
