@@ -36,7 +36,7 @@ fn polar_inertia(cloth: &Cloth, center: DVec3) -> f64 {
 #[test]
 fn a_free_sheet_takes_up_just_the_impulses_of_a_fast_ball() {
     for (speed, is_bounded, is_surface) in
-        [(3.0, false, false), (5.0, true, false), (15.0, true, true), (50.0, true, true)]
+        [(3.0, false, false), (5.0, true, false), (15.0, false, false), (50.0, false, false)]
     {
         let mut desc = without_losses(upright_sheet(20, 1.0));
         if is_bounded {
