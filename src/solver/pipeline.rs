@@ -130,8 +130,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     }
     let is_bounded = world.settings.max_stretch > 0.0;
     if is_bounded || !world.anchors.is_empty() {
-        timed!(world, Colliders, collide::begin_last_phase(world));
-        timed!(world, Velocities, piece_momentum::begin_last_phase(world));
+        timed!(world, Colliders, begin_last_phase(world));
         timed!(world, Pairs, surface_stages::begin_tick(world));
         if is_bounded {
             timed!(world, Limit, strain_limit::enforce(world));
@@ -149,6 +148,12 @@ pub(crate) fn tick(world: &mut World) -> bool {
     world.relax_stiffness_step();
     sleep::update_timer(world);
     true
+}
+
+/// Starts the phase after the last substep.
+fn begin_last_phase(world: &mut World) {
+    collide::begin_last_phase(world);
+    piece_momentum::begin_last_phase(world);
 }
 
 /// Advances time and tick count by one tick.

@@ -257,6 +257,9 @@ pub(crate) struct TickScratch {
     /// What the momentum of a free cloth that hits a collider should be at the end of this substep.
     /// Written by `impact_momentum`.
     pub expected_momentum: Option<ExpectedMomentum>,
+    /// Whether the cloth touched a collider without moving fast when the last substep ended. Written
+    /// by `piece_momentum`.
+    pub rests_on_collider: bool,
     /// Pieces that touch each other in this substep. Written by `piece_momentum`.
     pub piece_groups: PieceGroups,
     /// Stack of the flood fill that labels the pieces.
@@ -289,6 +292,7 @@ impl TickScratch {
             opened_edges: Vec::with_capacity(2),
             pieces: PieceLabels::new(capacity, triangles),
             expected_momentum: None,
+            rests_on_collider: false,
             piece_groups: PieceGroups::with_capacity(capacity, triangles),
             piece_stack: Vec::with_capacity(triangles),
         };

@@ -6,8 +6,7 @@
 use crate::arena::Arena;
 use crate::error::{Result, check, check_finite};
 use crate::geometry::collision_shape::CollisionShape;
-use crate::math::max;
-use crate::math::saturate;
+use crate::math::{max, saturate};
 use crate::state::collider_desc::{ColliderDesc, Shape};
 use crate::state::origin::{is_valid_origin, whole_metres};
 use crate::state::pose::{COLLIDER_FIELDS, Pose, check_pose};
@@ -60,6 +59,7 @@ impl Impulse {
         self.angular += other.angular * factor;
     }
 
+    /// The same impulse within the range of f32.
     pub(crate) fn saturate(self) -> Self {
         Self { linear: saturate(self.linear), angular: saturate(self.angular) }
     }

@@ -119,6 +119,13 @@ pub(crate) fn begin_last_phase(world: &mut World) {
     world.scratch.displacement.fill(Vec3::ZERO);
 }
 
+/// Prepares colliders for stages that run between two ticks: colliders may have come or gone since
+/// the last one, and paths of particles start at the current positions.
+pub(crate) fn begin_between_ticks(world: &mut World) {
+    begin_tick(world);
+    begin_last_phase(world);
+}
+
 /// What a projection pushes out of colliders, without friction and restitution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Projection {
@@ -193,17 +200,19 @@ pub(crate) fn project_out_in_substep(
     pushed.extend(contacts.projections.iter().map(|projection| projection.particle));
     for projection in &contacts.projections {
         let i = projection.particle as usize;
-        let (end, mass) = (world.particles.x.get(i), world.particles.mass[i]);
+        let (mut end, mut push) = (world.particles.x.get(i), projection.correction);
+        let body = world.colliders.iter().nth(projection.body as usize);
+        if let (Some(starts), Some(body)) = (starts, body) {
+            let [from, to] = substep_frames(body, substep, substeps);
+            let start = xyz(&starts[i]);
+            let carried =
+                if from == to { start } else { to.point_to_world(from.point_to_local(start)) };
+            push += carried - end;
+            end = carried;
+            world.particles.x.set(i, end);
+        }
         let pushes = &mut contacts.late_pushes[projection.body as usize];
-        pushes.add_at(end, projection.correction * mass);
-        let Some(starts) = starts else { continue };
-        let Some(body) = world.colliders.iter().nth(projection.body as usize) else { continue };
-        let [from, to] = substep_frames(body, substep, substeps);
-        let start = xyz(&starts[i]);
-        let carried =
-            if from == to { start } else { to.point_to_world(from.point_to_local(start)) };
-        world.particles.x.set(i, carried);
-        pushes.add_at(carried, (carried - end) * mass);
+        pushes.add_at(end, push * world.particles.mass[i]);
     }
 }
 

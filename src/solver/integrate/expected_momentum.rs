@@ -15,6 +15,6 @@ pub(crate) struct ExpectedMomentum {
     pub linear: Vec3,
     /// The angular momentum about the centre of mass.
     pub spin: Vec3,
-    /// The mean of the linear momenta at the start and at the end.
+    /// The linear momentum in the middle of the substep, with gravity alone.
     pub mean_momentum: Vec3,
 }

@@ -11,6 +11,7 @@
 //! Invariant: the sums use eight lanes in a fixed order, so the bits do not depend on the SIMD
 //! level.
 
+use crate::math::columns::Columns;
 use crate::math::simd::{Float, LANES, LaneArray, Level, Scalar, Simd, vectored};
 use glam::{DVec3, Mat3, Vec3};
 
@@ -198,8 +199,12 @@ fn add_angular_momentum<F: Float>(
     }
 }
 
-/// Sums over points in f64: of masses, of positions and displacements
-/// times mass, and the angular momentum of the displacements about the origin.
+/// Points with displacements: calls its argument with position, displacement and mass of each. Not
+/// generic, since few sums run over points and each copy would cost code size.
+pub(crate) type Points<'a> = &'a dyn Fn(&mut dyn FnMut(Vec3, Vec3, f32));
+
+/// Sums over points: of masses, of positions and displacements times mass, and the angular momentum
+/// of the displacements about the origin.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct PointSums {
     pub mass: f64,
@@ -209,35 +214,32 @@ pub(crate) struct PointSums {
 }
 
 impl PointSums {
+    pub fn of(points: Points<'_>) -> Self {
+        let mut sums = Self::default();
+        points(&mut |x, displacement, mass| {
+            let (x, mass) = (x.as_dvec3(), f64::from(mass));
+            let momentum = displacement.as_dvec3() * mass;
+            sums.mass += mass;
+            sums.center += x * mass;
+            sums.momentum += momentum;
+            sums.spin += x.cross(momentum);
+        });
+        sums
+    }
+
+    /// Sums the particles of a list, given columns of all particles.
+    pub fn of_columns(list: &[u32], x: &Columns, displacement: &Columns, mass: &[f32]) -> Self {
+        Self::of(&|add| {
+            for i in list.iter().map(|i| *i as usize) {
+                add(x.get(i), displacement.get(i), mass[i]);
+            }
+        })
+    }
+
     /// The centre of mass [m].
     pub fn mean_position(&self) -> DVec3 {
         if self.mass > 0.0 { self.center / self.mass } else { self.center }
     }
-
-    /// Sums points given as position, displacement and mass.
-    pub fn of(points: impl Iterator<Item = (Vec3, Vec3, f32)>) -> Self {
-        points.fold(Self::default(), |sums, (x, displacement, mass)| {
-            let (x, mass) = (x.as_dvec3(), f64::from(mass));
-            let momentum = displacement.as_dvec3() * mass;
-            Self {
-                mass: sums.mass + mass,
-                center: sums.center + x * mass,
-                momentum: sums.momentum + momentum,
-                spin: sums.spin + x.cross(momentum),
-            }
-        })
-    }
-}
-
-/// The sum of all masses [kg].
-pub(crate) fn total_mass(mass: &[f32]) -> f32 {
-    let (whole, rest) = mass.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for mass in whole {
-        sums.iter_mut().zip(mass).for_each(|(sum, mass)| *sum += mass);
-    }
-    sums.iter_mut().zip(rest).for_each(|(sum, mass)| *sum += mass);
-    sum_of_lanes(sums)
 }
 
 /// Sum of all lanes.

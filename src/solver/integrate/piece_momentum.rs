@@ -16,7 +16,7 @@
 //! level nor on how the pieces came about.
 
 use crate::math::columns::Columns;
-use crate::solver::integrate::impact_momentum::IMPACT;
+use crate::solver::integrate::impact_momentum::{self, IMPACT};
 use crate::solver::integrate::momentum::{
     self, MAX_FIXED, compute_angular_errors, compute_corrections, fixed_particles,
     has_collider_impulse, may_add_spin, pivot,
@@ -54,6 +54,7 @@ pub(crate) fn remove_internal_momentum(world: &mut World) {
 /// the positions.
 pub(crate) fn begin_last_phase(world: &mut World) {
     world.scratch.correction.copy_from(&world.particles.v);
+    world.scratch.rests_on_collider = impact_momentum::rests(world);
 }
 
 /// Ends the phase after the last substep: gives each free piece the momentum and the angular momentum
@@ -79,24 +80,22 @@ pub(crate) fn end_last_phase(world: &mut World) {
         if particles().any(|i| p.w[i] <= 0.0) {
             continue;
         }
-        let start =
-            |x: &Columns| PointSums::of(particles().map(|i| (x.get(i), v.get(i), p.mass[i])));
-        let mut before = start(x);
-        if is_pushed && pushes <= IMPACT * before.mass as f32 * pull {
+        let sums = |x: &Columns, v: &Columns| PointSums::of_columns(piece, x, v, &p.mass);
+        let (mut before, now) = (sums(x, v), sums(&p.x, &p.v));
+        if scratch.rests_on_collider && pushes <= IMPACT * before.mass as f32 * pull {
             // Cloth that rests is pushed a little in every tick; that must not turn it.
-            before = start(&p.x);
+            before = sums(&p.x, v);
         }
-        let now = || particles().map(|i| (p.x.get(i), p.v.get(i), p.mass[i]));
-        let shift = PointSums::of(now()).mean_position() - before.mean_position();
-        let torque = if is_pushed { shift.cross(before.momentum) } else { DVec3::ZERO };
-        let motion = RigidMotion::between(PointSums { spin: before.spin + torque, ..before }, now);
+        if is_pushed {
+            let shift = now.mean_position() - before.mean_position();
+            let torque = shift.cross(before.momentum);
+            before.spin += torque;
+            torques += torque;
+        }
+        let motion = RigidMotion::between(&before, &now, (piece, &p.x, &p.mass));
         for i in particles() {
-            let change = motion.displacement_at(p.x.get(i));
-            p.v.add(i, change);
-            p.v_extrapolated.add(i, change);
-            p.displacement.add(i, change * h);
+            p.add_velocity(i, motion.displacement_at(p.x.get(i)), h);
         }
-        torques += torque;
     }
     let pusher = scratch.contacts.first_pusher;
     if let Some(body) = world.colliders.iter_mut().nth(pusher) {
@@ -167,8 +166,12 @@ fn remove_from(
     let free = || all().filter(|i| p.w[*i] > 0.0);
     if is_pushed {
         if count == 0 && may_add_spin(world) {
-            let points = || free().map(|i| (velocity_origin(world, i), correction(i), p.mass[i]));
-            let motion = RigidMotion::of_points(points);
+            let scheme = world.scheme();
+            let share = scheme.old_weight / scheme.new_weight;
+            let motion = RigidMotion::of_points(&|add| {
+                free()
+                    .for_each(|i| add(velocity_origin(world, i, share), correction(i), p.mass[i]));
+            });
             subtract(world, particles, rounding, |world, i| {
                 motion.displacement_at(world.particles.x.get(i))
             });
@@ -181,8 +184,11 @@ fn remove_from(
         Pivot::Point(_) | Pivot::Axis(..) => Vec3::ZERO,
     };
     let (middles, errors) = (&scratch.relative_wind, &scratch.correction);
-    let points = || free().map(|i| (middles.get(i), errors.get(i), p.mass[i]));
-    let motion = RigidMotion::of_points_about(points, pivot).with_translation(translation);
+    let motion = RigidMotion::of_points_about(
+        &|add| free().for_each(|i| add(middles.get(i), errors.get(i), p.mass[i])),
+        pivot,
+    )
+    .with_translation(translation);
     subtract(world, particles, rounding, |world, i| {
         motion.displacement_at(world.scratch.relative_wind.get(i))
     });
@@ -194,10 +200,10 @@ fn has_soft_pin(world: &World, particles: &[u32]) -> bool {
 }
 
 /// The position that the velocity of a particle counts from: predicted − displacement + last
-/// displacement · (old weight / new weight) [m].
-fn velocity_origin(world: &World, i: usize) -> Vec3 {
-    let (scheme, scratch) = (world.scheme(), &world.scratch);
-    let last = world.particles.displacement.get(i) * (scheme.old_weight / scheme.new_weight);
+/// displacement · `share` [m], where `share` is old weight / new weight.
+fn velocity_origin(world: &World, i: usize, share: f32) -> Vec3 {
+    let scratch = &world.scratch;
+    let last = world.particles.displacement.get(i) * share;
     scratch.predicted.get(i) - scratch.displacement.get(i) + last
 }
 

@@ -19,6 +19,7 @@
     allow(dead_code)
 )]
 
+use crate::math::columns::Columns;
 use crate::math::simd::{Scalar, Simd, leveled, vectored};
 use crate::solver::integrate::momentum_sums::FreeParticles;
 use crate::solver::integrate::rigid_motion::RigidMotion;
@@ -135,7 +136,9 @@ fn clamp_displacement_of_pieces(world: &mut World, max_length: f32) {
     let displacement = &mut scratch.displacement;
     for piece in scratch.pieces.members.iter() {
         let free = || piece.iter().map(|i| *i as usize).filter(|i| p.w[*i] > 0.0);
-        let rigid = RigidMotion::fit(free, &p.x, |i| displacement.get(i), &p.mass);
+        let fit =
+            |displacement: &Columns| RigidMotion::fit(free, &p.x, |i| displacement.get(i), &p.mass);
+        let rigid = fit(displacement);
         let mut is_clamped = false;
         for i in free() {
             let common = rigid.displacement_at(p.x.get(i));
@@ -147,7 +150,7 @@ fn clamp_displacement_of_pieces(world: &mut World, max_length: f32) {
             }
         }
         if is_clamped && piece.iter().all(|i| p.w[*i as usize] > 0.0) {
-            let clamped = RigidMotion::fit(free, &p.x, |i| displacement.get(i), &p.mass);
+            let clamped = fit(displacement);
             for i in free() {
                 let x = p.x.get(i);
                 displacement.add(i, rigid.displacement_at(x) - clamped.displacement_at(x));

@@ -15,7 +15,7 @@ use crate::math::columns::Columns;
 use crate::math::simd::{Level, Simd};
 use crate::math::trig::{cos, sin};
 use crate::solver::integrate::momentum_sums::{
-    FreeParticles, LinearSums, PointSums, spin_and_inertia,
+    FreeParticles, LinearSums, PointSums, Points, spin_and_inertia,
 };
 use glam::{DVec3, Mat3, Vec3};
 
@@ -36,71 +36,57 @@ impl RigidMotion {
         displacement: impl Fn(usize) -> Vec3,
         mass: &[f32],
     ) -> Self {
-        Self::of_points(|| particles().map(|i| (x.get(i), displacement(i), mass[i])))
+        Self::of_points(&|add| {
+            particles().for_each(|i| add(x.get(i), displacement(i), mass[i]));
+        })
     }
 
-    /// As `fit`, for points given as position, displacement and mass.
-    pub fn of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(points: impl Fn() -> I) -> Self {
-        let fitted = Self::translation_of_points(&points);
-        let (spin, inertia) = fitted.spin_and_inertia_of_points(points());
+    /// As `fit`, for points.
+    pub fn of_points(points: Points<'_>) -> Self {
+        let fitted = PointSums::of(points).translation();
+        let (spin, inertia) = fitted.spin_and_inertia_of_points(points);
         Self { rotation: solve(&inertia, spin), ..fitted }
     }
 
-    /// As `about`, for points given as position, displacement and mass.
-    pub fn of_points_about<I: Iterator<Item = (Vec3, Vec3, f32)>>(
-        points: impl Fn() -> I,
-        pivot: Pivot,
-    ) -> Self {
+    /// As `about`, for points.
+    pub fn of_points_about(points: Points<'_>, pivot: Pivot) -> Self {
         let fitted = match pivot {
-            Pivot::Nothing => Self::translation_of_points(&points),
+            Pivot::Nothing => PointSums::of(points).translation(),
             Pivot::Point(center) | Pivot::Axis(center, _) => {
                 Self { center, translation: Vec3::ZERO, rotation: Vec3::ZERO }
             }
         };
-        let (spin, inertia) = fitted.spin_and_inertia_of_points(points());
+        let (spin, inertia) = fitted.spin_and_inertia_of_points(points);
         Self { rotation: pivot.rotation(inertia, spin), ..fitted }
+    }
+
+    /// The rigid motion that gives the particles of a list at `x`, whose sums are `now`, the linear
+    /// and angular momentum of the sums `before`.
+    pub fn between(
+        before: &PointSums,
+        now: &PointSums,
+        (list, x, mass): (&[u32], &Columns, &[f32]),
+    ) -> Self {
+        let momentum = before.momentum - now.momentum;
+        let fitted = PointSums { momentum, ..*now }.translation();
+        let mut inertia = Mat3::ZERO;
+        for i in list.iter().map(|i| *i as usize) {
+            add_inertia(&mut inertia, x.get(i) - fitted.center, mass[i]);
+        }
+        let spin = before.spin - now.spin - now.mean_position().cross(momentum);
+        Self { rotation: Pivot::Nothing.rotation(inertia, spin.as_vec3()), ..fitted }
     }
 
     /// The angular momentum of displacements less the translation, and the moment of inertia, both
     /// about the centre.
-    fn spin_and_inertia_of_points(
-        &self,
-        points: impl Iterator<Item = (Vec3, Vec3, f32)>,
-    ) -> (Vec3, Mat3) {
+    fn spin_and_inertia_of_points(&self, points: Points<'_>) -> (Vec3, Mat3) {
         let (mut spin, mut inertia) = (DVec3::ZERO, Mat3::ZERO);
-        for (x, displacement, mass) in points {
+        points(&mut |x, displacement, mass| {
             let r = x - self.center;
             spin += (r.cross(displacement - self.translation) * mass).as_dvec3();
             add_inertia(&mut inertia, r, mass);
-        }
+        });
         (spin.as_vec3(), inertia)
-    }
-
-    /// The centre of mass of points, and the translation with their momentum.
-    fn translation_of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(
-        points: &impl Fn() -> I,
-    ) -> Self {
-        let sums = PointSums::of(points());
-        Self::translation_from_sums(
-            sums.mass as f32,
-            sums.center.as_vec3(),
-            sums.momentum.as_vec3(),
-        )
-    }
-
-    /// The rigid motion that gives points, if they have the momenta of `now`, the linear and angular
-    /// momentum of the sums `before`. Points are given as position, displacement and mass.
-    pub fn between<I: Iterator<Item = (Vec3, Vec3, f32)>>(
-        before: PointSums,
-        now: impl Fn() -> I,
-    ) -> Self {
-        let new = PointSums::of(now());
-        let linear = before.momentum - new.momentum;
-        let fitted =
-            Self::translation_from_sums(new.mass as f32, new.center.as_vec3(), linear.as_vec3());
-        let (_, inertia) = fitted.spin_and_inertia_of_points(now());
-        let spin = before.spin - new.spin - new.mean_position().cross(linear);
-        Self { rotation: Pivot::Nothing.rotation(inertia, spin.as_vec3()), ..fitted }
     }
 
     /// The centre of mass and the translation, from sums over particles: of masses, of positions
@@ -210,6 +196,17 @@ impl RigidMotion {
     }
 }
 
+impl PointSums {
+    /// The centre of mass of the points, and the translation with their momentum.
+    fn translation(&self) -> RigidMotion {
+        RigidMotion::translation_from_sums(
+            self.mass as f32,
+            self.center.as_vec3(),
+            self.momentum.as_vec3(),
+        )
+    }
+}
+
 /// One component of a rigid motion: `translation + rotation[0] · (at[1] − center[1]) −
 /// rotation[1] · (at[0] − center[0])`, where 0 and 1 are the next axes in cyclic order.
 #[derive(Clone, Copy)]
@@ -254,6 +251,7 @@ impl Pivot {
 }
 
 /// Adds the moment of inertia of a point of `mass` [kg] at `r` [m] from the centre.
+#[inline(never)]
 fn add_inertia(inertia: &mut Mat3, r: Vec3, mass: f32) {
     let r2 = r.length_squared();
     let products = [r * r.x, r * r.y, r * r.z];

@@ -162,11 +162,10 @@ fn project_all(world: &mut World, limit: f32) {
 fn stop_moved(world: &mut World) {
     let h = world.regular_scheme().h;
     let (p, before) = (&mut world.particles, &world.scratch.predicted);
-    for i in (0..p.len()).filter(|i| p.x.get(*i) != before.get(*i)) {
-        let v = p.v.get(i);
-        p.v.set(i, Vec3::ZERO);
-        p.v_extrapolated.add(i, -v);
-        p.displacement.add(i, v * -h);
+    for i in 0..p.len() {
+        if p.x.get(i) != before.get(i) {
+            p.add_velocity(i, -p.v.get(i), h);
+        }
     }
 }
 
@@ -235,7 +234,10 @@ fn update_velocities(world: &mut World) {
     let inv_tick = 1.0 / world.settings.tick;
     let h = world.regular_scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
-    for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
+    for i in 0..p.len() {
+        if p.w[i] <= 0.0 {
+            continue;
+        }
         let mean = (p.x.get(i) - p.x_prev_tick.get(i)) * inv_tick;
         let difference = p.v.get(i) + (p.x.get(i) - scratch.predicted.get(i)) * inv_tick - mean;
         let (difference2, mean2) = (difference.length_squared(), mean.length_squared());
@@ -249,10 +251,7 @@ fn update_velocities(world: &mut World) {
         } else {
             mean + difference
         };
-        let change = v - p.v.get(i);
-        p.v.add(i, change);
-        p.v_extrapolated.add(i, change);
-        p.displacement.add(i, change * h);
+        p.add_velocity(i, v - p.v.get(i), h);
     }
 }
 
