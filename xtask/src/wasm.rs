@@ -18,8 +18,7 @@ pub const FLAGS: &str = "-C target-feature=+simd128 -C llvm-args=--disable-lsr \
                          -C opt-level=2 -C llvm-args=-inline-threshold=50";
 
 /// Compiler flags for engines without vectors.
-pub const PLAIN: &str =
-    "-C target-feature=-simd128 -C llvm-args=--disable-lsr \
+pub const PLAIN: &str = "-C target-feature=-simd128 -C llvm-args=--disable-lsr \
      -C opt-level=2 -C llvm-args=-inline-threshold=50";
 
 /// Compiler flags for the first version of wasm, with bulk memory operations: what wasm2js can
