@@ -292,7 +292,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require(restore_attachments(&mut world, saved.attachments.into_owned()))?;
     restore_pins_and_grabs(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();
-    require(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
+    require(colliders.is_within(MAX_COLLIDERS))?;
     for body in colliders.iter_mut() {
         body.restore()?;
     }
@@ -348,7 +348,7 @@ fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
             && is_valid_origin(motion.center)
     };
     let are_sound = attachments.iter().all(is_sound);
-    let fits = are_sound && attachments.capacity() == usize::from(MAX_ATTACHMENTS);
+    let fits = are_sound && attachments.is_within(MAX_ATTACHMENTS);
     world.attachments = attachments;
     fits
 }
@@ -368,7 +368,7 @@ fn restore_pins_and_grabs(
     });
     let grabs_fit =
         grabs.iter().all(|grab| (grab.particle as usize) < count && grab.target.is_finite());
-    if !(pins_fit && pins.is_sorted() && grabs_fit && grabs.capacity() == usize::from(MAX_GRABS)) {
+    if !(pins_fit && pins.is_sorted() && grabs_fit && grabs.is_within(MAX_GRABS)) {
         return Err(bad());
     }
     (world.pins, world.grabs) = (pins, grabs);

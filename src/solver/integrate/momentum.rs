@@ -266,11 +266,9 @@ fn subtract_column(
     w: &[f32],
     share: f32,
 ) {
-    let Component { translation, rotation, center, at } = motion;
-    let points = at[0].iter().zip(at[1]).zip(w);
+    let points = motion.at[0].iter().zip(motion.at[1]).zip(w);
     for ((x, displacement), ((a, b), w)) in x.iter_mut().zip(displacement).zip(points) {
-        let turned = rotation[0] * (b - center[1]) - (a - center[0]) * rotation[1];
-        let by = if *w > 0.0 { translation + turned } else { 0.0 };
+        let by = if *w > 0.0 { motion.displacement(*a, *b) } else { 0.0 };
         let before = *x;
         *x = before - by;
         *displacement += ((*x - before) + by) * -share;

@@ -211,10 +211,20 @@ impl PointSums {
 /// rotation[1] · (at[0] − center[0])`, where 0 and 1 are the next axes in cyclic order.
 #[derive(Clone, Copy)]
 pub(crate) struct Component<'a> {
-    pub translation: f32,
-    pub rotation: [f32; 2],
-    pub center: [f32; 2],
+    translation: f32,
+    rotation: [f32; 2],
+    center: [f32; 2],
     pub at: [&'a [f32]; 2],
+}
+
+impl Component<'_> {
+    /// The displacement of a point with these coordinates [m].
+    #[inline(always)]
+    pub fn displacement(&self, a: f32, b: f32) -> f32 {
+        let turned =
+            self.rotation[0] * (b - self.center[1]) - (a - self.center[0]) * self.rotation[1];
+        self.translation + turned
+    }
 }
 
 /// What holds a body: it leaves free the rotation about itself.
