@@ -61,7 +61,7 @@ const TRIANGLE_ROUNDS: [u32; 2] = [2, 40];
 const MAX_SEARCHES: u32 = 4;
 
 /// The largest number of rounds that roll triangles back.
-const MAX_ROLLBACK_ROUNDS: u32 = 16;
+const MAX_ROLLBACK_ROUNDS: u32 = 100;
 
 /// The largest speed at which cloth that started inside a shape comes out [m/s]. A larger speed
 /// would overstretch the cloth around it and fling it away.
@@ -341,7 +341,7 @@ fn solve_colliders(
                     &neighbours,
                     gap,
                     pushes,
-                    &|particles, pushes| {
+                    &mut |particles, pushes| {
                         pushes.reset(particles.w.len());
                         let sharp =
                             edge_vs_feature::push(&features, particles, close_pairs, pushes);
@@ -356,7 +356,7 @@ fn solve_colliders(
                 }
             }
         } else if !(neighbours.triangle_blocks.is_empty() && long.is_empty()) {
-            solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &|particles, pushes| {
+            solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &mut |particles, pushes| {
                 triangle_vs_round::solve(
                     shape,
                     particles,
@@ -384,7 +384,7 @@ fn solve_rounds(
     neighbours: &Neighbours<'_>,
     gap: f32,
     pushes: &mut PushAccumulator,
-    push: &dyn Fn(&mut LocalParticles<'_>, &mut PushAccumulator) -> f32,
+    push: &mut dyn FnMut(&mut LocalParticles<'_>, &mut PushAccumulator) -> f32,
 ) -> f32 {
     let mut pushed = 0.0;
     for round in 1..=TRIANGLE_ROUNDS[1] {

@@ -61,7 +61,7 @@ pub(super) fn solve(
     (triangles, long_triangles): (&[[u32; 3]], &[u32]),
     neighbours: &Neighbours<'_>,
     gap: f32,
-    clearance: &[f32],
+    clearance: &mut [f32],
     pushes: &mut PushAccumulator,
 ) -> f32 {
     let (gap, mut deepest) = (gap * TRIANGLE_GAP, 0.0);
@@ -115,6 +115,8 @@ pub(super) fn solve(
         }
     }
     pushes.apply(particles);
+    // The clearances of these hold no longer, so their triangles count as near.
+    pushes.pushed().iter().for_each(|i| clearance[*i as usize] = 0.0);
     deepest
 }
 
