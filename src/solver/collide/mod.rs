@@ -355,18 +355,37 @@ fn solve_colliders(
                     break;
                 }
             }
-        } else if !(neighbours.triangle_blocks.is_empty() && long.is_empty()) {
-            solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &mut |particles, pushes| {
-                triangle_vs_round::solve(
-                    shape,
-                    particles,
-                    (&world.mesh.triangles, long),
-                    &neighbours,
-                    gap,
-                    clearance,
-                    pushes,
-                )
-            });
+            continue;
+        }
+        // Rounds that push far may make other triangles long.
+        for _ in 0..MAX_SEARCHES {
+            let long = contacts.long.list();
+            if neighbours.triangle_blocks.is_empty() && long.is_empty() {
+                break;
+            }
+            let triangles = &world.mesh.triangles[..];
+            let pushed = solve_rounds(
+                shape,
+                &mut particles,
+                &neighbours,
+                gap,
+                pushes,
+                &mut |particles, pushes| {
+                    triangle_vs_round::solve(
+                        shape,
+                        particles,
+                        (triangles, long),
+                        &neighbours,
+                        gap,
+                        clearance,
+                        pushes,
+                    )
+                },
+            );
+            let surface = (&*particles.x, triangles);
+            if !contacts.long.measure_after_rounds(pushed, world.mean_edge, surface, world.level) {
+                break;
+            }
         }
     }
 }
