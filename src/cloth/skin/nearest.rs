@@ -68,7 +68,7 @@ impl<'a> ClothSurface<'a> {
             nearest = min(self.distance(triangle, point), nearest);
             nearest * nearest
         });
-        if !(nearest <= self.reach) {
+        if nearest > self.reach || nearest.is_nan() {
             return None;
         }
         let limit = nearest + self.tolerance;
