@@ -30,6 +30,7 @@ mod pins;
 mod postcard;
 pub(crate) mod query;
 mod save;
+pub(crate) mod skin;
 mod state_hash;
 mod tear;
 mod teleport;

@@ -14,6 +14,7 @@ mod particles;
 mod picking;
 mod reference_frame;
 mod save;
+mod skins;
 mod time;
 mod topology;
 mod vertex_buffers;
