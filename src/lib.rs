@@ -63,7 +63,7 @@
 //! | let it collide | [`ColliderDesc`], [`Shape`], [`Collider`], [`Impulse`] |
 //! | tear, cut and fold it | [`Cloth::tear_edge`], [`Cloth::cut`], [`Cloth::crease`], [`Event`], [`EventKind`] |
 //! | draw it | [`View`], [`Changes`]; [`Cloth::write_vertices`] with [`Stream`], [`Attribute`], [`VertexFormat`], [`WriteDesc`]; [`Cloth::write_indices`] with [`IndexFormat`] |
-//! | pick and measure | [`Hit`], [`Stats`], [`Stage`], [`LinkKind`], [`Clock`] |
+//! | pick and measure | [`Hit`], [`MassProperties`], [`Stats`], [`Stage`], [`LinkKind`], [`Clock`] |
 //! | save and compare it | [`Cloth::save`], [`Cloth::restore`], [`Cloth::state_hash`] |
 //! | handle errors | [`Error`], [`Result`] |
 //!
@@ -90,6 +90,7 @@ mod state;
 pub use crate::cloth::Cloth;
 pub use crate::cloth::changes::Changes;
 pub use crate::cloth::desc::{AS_MANY_AGAIN, GridDesc, MeshDesc, PinMode};
+pub use crate::cloth::mass_properties::MassProperties;
 pub use crate::cloth::query::Hit;
 pub use crate::cloth::vertex_stream::{
     ALL_VERTICES, Attribute, MAX_STREAMS, Stream, VertexFormat, WriteDesc,
