@@ -1296,6 +1296,42 @@ MuslinStatus muslin_cloth_advance(MuslinCloth cloth,
 MuslinStatus muslin_cloth_step(MuslinCloth cloth, uint32_t ticks);
 
 /**
+ * Reads the share of a tick that muslin_cloth_advance has not simulated yet, from 0 to 1: the
+ * `blend` of MuslinWriteDesc for smooth motion at any frame rate.
+ */
+MuslinStatus muslin_cloth_get_blend(MuslinCloth cloth, float *out_blend);
+
+/**
+ * Reads whether the cloth sleeps, 1 or 0, see `sleep_speed` of MuslinSettings: ticks then move
+ * nothing until something wakes it.
+ */
+MuslinStatus muslin_cloth_is_asleep(MuslinCloth cloth, uint32_t *out_asleep);
+
+/** Reads the current wind. Initialise `out_wind` with muslin_wind_init. */
+MuslinStatus muslin_cloth_get_wind(MuslinCloth cloth, MuslinWind *out_wind);
+
+/**
+ * Reads the simulated time since the cloth was made or reset.
+ *
+ * `out_seconds` (may be NULL) receives it in seconds, `out_ticks` (may be NULL) in ticks.
+ */
+MuslinStatus muslin_cloth_get_time(MuslinCloth cloth,
+                                   double *out_seconds,
+                                   uint64_t *out_ticks);
+
+/**
+ * Reads mass, center of mass and momentum of the whole cloth, pinned particles included. Computed
+ * on each call, in one pass over the particles.
+ *
+ * `out_total` (may be NULL) receives the mass [kg], `out_center` (may be NULL) the center of mass
+ * [m], `out_momentum` (may be NULL) the sum of mass times velocity [kg m/s].
+ */
+MuslinStatus muslin_cloth_get_mass(MuslinCloth cloth,
+                                   float *out_total,
+                                   MuslinVec3 *out_center,
+                                   MuslinVec3 *out_momentum);
+
+/**
  * Pins a particle at `target` [m], or at its current position if `target` is NULL.
  *
  * The particle reaches the target evenly over the ticks of the next muslin_cloth_advance, or in
@@ -1358,6 +1394,35 @@ MuslinStatus muslin_cloth_set_pin_stiffness(MuslinCloth cloth,
                                             float stiffness);
 
 /**
+ * Returns the pinned particles, in ascending order. `out_count` receives their number.
+ *
+ * If `capacity` is 0, only the number is returned, and `out_particles` may be NULL.
+ *
+ * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if `capacity` is neither 0 nor at least that number:
+ * nothing is written, and muslin_last_error() states the number
+ */
+MuslinStatus muslin_cloth_get_pins(MuslinCloth cloth,
+                                   uint32_t *out_particles,
+                                   uint32_t capacity,
+                                   uint32_t *out_count);
+
+/**
+ * Reads the targets of `count` pins [m], which their particles reach with the next ticks. Those of
+ * attached particles follow from the pose of their attachment.
+ *
+ * Targets are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a multiple
+ * of 4), and the bytes between them do not change. With `count` 0 both pointers may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
+ * particle is not pinned, `stride` is invalid, or `count` exceeds the number of particles
+ */
+MuslinStatus muslin_cloth_get_pin_targets(MuslinCloth cloth,
+                                          const uint32_t *particles,
+                                          float *out_positions,
+                                          uint32_t stride,
+                                          uint32_t count);
+
+/**
  * Multiplies the masses of `count` particles by factors: 1, the initial value, keeps the mass that
  * density and surrounding area give. A hem hangs straight at about 5; a coin that is sewn in may
  * be 100.
@@ -1394,6 +1459,74 @@ MuslinStatus muslin_cloth_set_position(MuslinCloth cloth,
 MuslinStatus muslin_cloth_set_velocity(MuslinCloth cloth,
                                        uint32_t particle,
                                        MuslinVec3 velocity);
+
+/**
+ * Places `count` particles, from `first` on, at once [m]: a whole pose, if `first` is 0 and `count`
+ * the number of particles.
+ *
+ * Velocities stay as they are; call muslin_cloth_set_velocities too to continue from a recorded
+ * state. Pinned particles stay pinned, at the new positions. Positions are 3 floats each;
+ * consecutive ones start `stride` bytes apart (0 means 12; a multiple of 4). With `count` 0 the
+ * pointer may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if particle `first` does not exist; MUSLIN_STATUS_BAD_VALUE if a
+ * position is not finite (the message names its index), `stride` is invalid, or `count` exceeds
+ * the number of particles from `first` on
+ */
+MuslinStatus muslin_cloth_set_positions(MuslinCloth cloth,
+                                        uint32_t first,
+                                        uint32_t count,
+                                        const float *positions,
+                                        uint32_t stride);
+
+/**
+ * Sets the velocities of `count` particles, from `first` on [m/s].
+ *
+ * Velocities are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a
+ * multiple of 4). With `count` 0 the pointer may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if particle `first` does not exist; MUSLIN_STATUS_BAD_VALUE if a
+ * velocity is not finite (the message names its index), `stride` is invalid, or `count` exceeds
+ * the number of particles from `first` on
+ */
+MuslinStatus muslin_cloth_set_velocities(MuslinCloth cloth,
+                                         uint32_t first,
+                                         uint32_t count,
+                                         const float *velocities,
+                                         uint32_t stride);
+
+/**
+ * Reads the velocities of `count` particles, from `first` on [m/s].
+ *
+ * Velocities are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a
+ * multiple of 4), and the bytes between them do not change. With `count` 0 the pointer may be
+ * NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if particle `first` does not exist; MUSLIN_STATUS_BAD_VALUE if
+ * `stride` is invalid, or `count` exceeds the number of particles from `first` on
+ */
+MuslinStatus muslin_cloth_get_velocities(MuslinCloth cloth,
+                                         uint32_t first,
+                                         uint32_t count,
+                                         float *out_velocities,
+                                         uint32_t stride);
+
+/**
+ * Reads the positions that `count` particles, from `first` on, have in the rest shape [m]: where
+ * the descriptor placed them, whatever moved them since.
+ *
+ * A particle that a tear split off has the position of its source; one that a cut added has the
+ * point of the rest edge that was cut. Strides are as in muslin_cloth_get_velocities. With `count`
+ * 0 the pointer may be NULL.
+ *
+ * @return MUSLIN_STATUS_BAD_INDEX if particle `first` does not exist; MUSLIN_STATUS_BAD_VALUE if
+ * `stride` is invalid, or `count` exceeds the number of particles from `first` on
+ */
+MuslinStatus muslin_cloth_get_rest_positions(MuslinCloth cloth,
+                                             uint32_t first,
+                                             uint32_t count,
+                                             float *out_positions,
+                                             uint32_t stride);
 
 /**
  * Attaches `count` particles to a transform at `position` [m] with `rotation`, e.g. a bone, a pole
@@ -1683,6 +1816,20 @@ MuslinStatus muslin_cloth_move_collider(MuslinCloth cloth,
  */
 MuslinStatus muslin_cloth_remove_collider(MuslinCloth cloth,
                                           MuslinCollider collider);
+
+/**
+ * Reads where a collider is now: after the last tick, or where it was added or teleported to since.
+ * A pose of muslin_cloth_move_collider counts once a tick has reached it.
+ *
+ * `out_position` (may be NULL) receives the position [m], `out_rotation` (may be NULL) the
+ * rotation.
+ *
+ * @return MUSLIN_STATUS_BAD_HANDLE if it was removed
+ */
+MuslinStatus muslin_cloth_get_collider_pose(MuslinCloth cloth,
+                                            MuslinCollider collider,
+                                            MuslinVec3 *out_position,
+                                            MuslinQuat *out_rotation);
 
 /**
  * Reads the impulse that the cloth applied to a collider in the last tick.

@@ -288,7 +288,48 @@ class Cloth {
   Done set_material(const MuslinMaterial &material) noexcept {
     return muslin_cloth_set_material(cloth_, &material);
   }
+  Result<MuslinWind> wind() const noexcept {
+    MuslinWind current;
+    muslin_wind_init(&current);
+    const MuslinStatus status = muslin_cloth_get_wind(cloth_, &current);
+    return {status, current};
+  }
   Done set_wind(const MuslinWind &wind) noexcept { return muslin_cloth_set_wind(cloth_, &wind); }
+
+  /** The share of a tick that advance() has not simulated yet, from 0 to 1. */
+  Result<float> blend() const noexcept {
+    float blend = 0;
+    const MuslinStatus status = muslin_cloth_get_blend(cloth_, &blend);
+    return {status, blend};
+  }
+  Result<bool> is_asleep() const noexcept {
+    std::uint32_t asleep = 0;
+    const MuslinStatus status = muslin_cloth_is_asleep(cloth_, &asleep);
+    return {status, asleep != 0};
+  }
+  /** Simulated time since the cloth was made or reset. */
+  struct Time {
+    double seconds;
+    std::uint64_t ticks;
+  };
+  Result<Time> time() const noexcept {
+    Time time{};
+    const MuslinStatus status = muslin_cloth_get_time(cloth_, &time.seconds, &time.ticks);
+    return {status, time};
+  }
+  /** Mass, center of mass and momentum of the whole cloth. */
+  struct Mass {
+    /** Sum of the masses of all particles [kg]. */
+    float total;
+    /** Center of mass [m]; sum of mass times velocity [kg m/s]. */
+    MuslinVec3 center, momentum;
+  };
+  Result<Mass> mass() const noexcept {
+    Mass mass{};
+    const MuslinStatus status =
+        muslin_cloth_get_mass(cloth_, &mass.total, &mass.center, &mass.momentum);
+    return {status, mass};
+  }
 
   Done pin(std::uint32_t particle) noexcept { return muslin_cloth_pin(cloth_, particle, nullptr); }
   Done pin(std::uint32_t particle, MuslinVec3 target) noexcept {
@@ -299,6 +340,19 @@ class Cloth {
   Done set_pin_targets(const std::uint32_t *particles, const void *positions, std::uint32_t stride,
                        std::uint32_t count) noexcept {
     return muslin_cloth_set_pin_targets(cloth_, particles, positions, stride, count);
+  }
+  /** Returns the pinned particles, in ascending order. */
+  Result<std::vector<std::uint32_t>> pins() const {
+    std::uint32_t count = 0;
+    std::vector<std::uint32_t> pins;
+    MuslinStatus status = muslin_cloth_get_pins(cloth_, nullptr, 0, &count);
+    pins.resize(count);
+    if (count > 0) status = muslin_cloth_get_pins(cloth_, pins.data(), count, &count);
+    return {status, std::move(pins)};
+  }
+  Done get_pin_targets(const std::uint32_t *particles, float *out_positions, std::uint32_t stride,
+                       std::uint32_t count) const noexcept {
+    return muslin_cloth_get_pin_targets(cloth_, particles, out_positions, stride, count);
   }
   Done set_pin_stiffness(const std::uint32_t *particles, std::uint32_t count, float stiffness) noexcept {
     return muslin_cloth_set_pin_stiffness(cloth_, particles, count, stiffness);
@@ -344,6 +398,23 @@ class Cloth {
   }
   Done set_velocity(std::uint32_t particle, MuslinVec3 velocity) noexcept {
     return muslin_cloth_set_velocity(cloth_, particle, velocity);
+  }
+
+  Done set_positions(std::uint32_t first, std::uint32_t count, const float *positions,
+                     std::uint32_t stride = 0) noexcept {
+    return muslin_cloth_set_positions(cloth_, first, count, positions, stride);
+  }
+  Done set_velocities(std::uint32_t first, std::uint32_t count, const float *velocities,
+                      std::uint32_t stride = 0) noexcept {
+    return muslin_cloth_set_velocities(cloth_, first, count, velocities, stride);
+  }
+  Done get_velocities(std::uint32_t first, std::uint32_t count, float *out_velocities,
+                      std::uint32_t stride = 0) const noexcept {
+    return muslin_cloth_get_velocities(cloth_, first, count, out_velocities, stride);
+  }
+  Done get_rest_positions(std::uint32_t first, std::uint32_t count, float *out_positions,
+                          std::uint32_t stride = 0) const noexcept {
+    return muslin_cloth_get_rest_positions(cloth_, first, count, out_positions, stride);
   }
 
   /** Returns the first hit of a ray; empty if it hits nothing. */
@@ -408,6 +479,17 @@ class Cloth {
   }
   Done remove_collider(MuslinCollider collider) noexcept {
     return muslin_cloth_remove_collider(cloth_, collider);
+  }
+  /** Position and rotation of a collider after the last tick. */
+  struct Pose {
+    MuslinVec3 position;
+    MuslinQuat rotation;
+  };
+  Result<Pose> collider_pose(MuslinCollider collider) const noexcept {
+    Pose pose{};
+    const MuslinStatus status =
+        muslin_cloth_get_collider_pose(cloth_, collider, &pose.position, &pose.rotation);
+    return {status, pose};
   }
   /** Impulse that the cloth applied to a collider in the last tick. */
   struct Impulse {

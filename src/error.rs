@@ -23,6 +23,15 @@ pub enum Error {
         /// The broken rule, which completes the sentence "`field` must …".
         must: &'static str,
     },
+    /// An entry of a list is out of range or not finite.
+    BadEntry {
+        /// Name of the list.
+        field: &'static str,
+        /// Index of the first such entry, from 0.
+        index: u32,
+        /// The broken rule, which completes the sentence "`field[index]` must …".
+        must: &'static str,
+    },
     /// An index is not below the number of particles, vertices or points.
     BadIndex {
         /// Name of the field or argument.
@@ -84,6 +93,7 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::BadValue { field, must } => write!(f, "`{field}` must {must}"),
+            Self::BadEntry { field, index, must } => write!(f, "`{field}[{index}]` must {must}"),
             Self::BadIndex { field, index, count } => {
                 write!(f, "`{field}` must be below {count}, but is {index}")
             }
@@ -114,6 +124,14 @@ pub(crate) fn check(ok: bool, field: &'static str, must: &'static str) -> Result
 /// Returns [`Error::BadValue`] for `field` unless all components of `v` are finite.
 pub(crate) fn check_finite(v: glam::Vec3, field: &'static str) -> Result<()> {
     check(v.is_finite(), field, "be finite")
+}
+
+/// Returns [`Error::BadEntry`] for the first vector of the list `field` that is not finite.
+pub(crate) fn check_all_finite(list: &[glam::Vec3], field: &'static str) -> Result<()> {
+    match list.iter().position(|v| !v.is_finite()) {
+        None => Ok(()),
+        Some(index) => Err(Error::BadEntry { field, index: index as u32, must: "be finite" }),
+    }
 }
 
 /// Returns [`Error::BadIndex`] for `field` unless `index` is below `count`.

@@ -64,7 +64,7 @@
 //! | tear, cut and fold it | [`Cloth::tear_edge`], [`Cloth::cut`], [`Cloth::crease`], [`Event`], [`EventKind`] |
 //! | draw it | [`View`], [`Changes`]; [`Cloth::write_vertices`] with [`Stream`], [`Attribute`], [`VertexFormat`], [`WriteDesc`]; [`Cloth::write_indices`] with [`IndexFormat`] |
 //! | draw a finer mesh that follows it | [`Skin`] with [`SkinDesc`] |
-//! | pick and measure | [`Hit`], [`Stats`], [`Stage`], [`LinkKind`], [`Clock`] |
+//! | pick and measure | [`Hit`], [`MassProperties`], [`Stats`], [`Stage`], [`LinkKind`], [`Clock`] |
 //! | save and compare it | [`Cloth::save`], [`Cloth::restore`], [`Cloth::state_hash`] |
 //! | handle errors | [`Error`], [`Result`] |
 //!
@@ -91,6 +91,7 @@ mod state;
 pub use crate::cloth::Cloth;
 pub use crate::cloth::changes::Changes;
 pub use crate::cloth::desc::{AS_MANY_AGAIN, GridDesc, MeshDesc, PinMode};
+pub use crate::cloth::mass_properties::MassProperties;
 pub use crate::cloth::query::Hit;
 pub use crate::cloth::skin::Skin;
 pub use crate::cloth::skin::given_mesh::SkinDesc;

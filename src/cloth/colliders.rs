@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::math::float_env::with_float_env;
 use crate::state::collider_desc::ColliderDesc;
 use crate::state::colliders::{Collider, ColliderBody, Impulse};
+use crate::state::pose::Pose;
 use glam::{Quat, Vec3};
 
 impl Cloth {
@@ -75,6 +76,18 @@ impl Cloth {
         self.world.scratch.contacts.nearby.invalidate();
         self.world.wake();
         Ok(())
+    }
+
+    /// Returns the position [m] and the rotation of a collider where it is now: after the last tick,
+    /// or where it was added or teleported to since. A pose of [`Cloth::move_collider`] counts once
+    /// a tick has reached it.
+    ///
+    /// # Errors
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if it was removed.
+    pub fn collider_pose(&self, collider: Collider) -> Result<(Vec3, Quat)> {
+        let body = self.world.colliders.get(collider.0, "collider")?;
+        let Pose { position, rotation } = with_float_env(|| body.pose(self.world.origin));
+        Ok((position, rotation))
     }
 
     /// Returns the impulse that the cloth applied to a collider in the last tick. Divided by the

@@ -23,9 +23,11 @@ mod cut;
 pub(crate) mod desc;
 mod grabs;
 mod interpolated_surface;
+pub(crate) mod mass_properties;
 mod mass_scales;
 mod outputs;
 mod parameters;
+mod particle_state;
 mod pins;
 mod postcard;
 pub(crate) mod query;
@@ -47,7 +49,7 @@ use crate::cloth::build::ClothDesc;
 use crate::cloth::change_history::ChangeHistory;
 use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::cloth::outputs::Outputs;
-use crate::error::{Result, check, check_finite, check_index};
+use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
 use crate::solver::pipeline;
@@ -55,7 +57,6 @@ use crate::solver::profile::Clock;
 use crate::solver::world::World;
 use crate::state::colliders::Impulse;
 use crate::state::events::Event;
-use glam::Vec3;
 
 /// A simulated piece of cloth: particles joined by constraints, with the triangle mesh that is
 /// drawn.
@@ -346,46 +347,15 @@ impl Cloth {
         self.world.time
     }
 
-    /// Places a particle at `position` [m] at once. Its velocity stays as it is. A pinned particle
-    /// stays pinned, at the new position.
-    ///
-    /// # Errors
-    /// [`Error::BadIndex`](crate::Error::BadIndex) if `particle` does not exist;
-    /// [`Error::BadValue`](crate::Error::BadValue) if `position` is not finite. The cloth is
-    /// unchanged.
-    pub fn set_position(&mut self, particle: u32, position: Vec3) -> Result<()> {
-        check_index(particle, self.world.particles.len(), "particle")?;
-        check_finite(position, "position")?;
-        let (at, world) = (particle as usize, &mut self.world);
-        with_float_env(|| {
-            world.move_origin_near(position);
-            let position = world.to_relative(position);
-            let v = world.particles.v.get(at);
-            world.set_particle_state(at, position, v);
-            world.particles.x_prev_tick.set(at, position);
-            world.move_pin(particle, position);
-            world.is_tangled = true;
-        });
-        self.update_state();
-        Ok(())
+    /// Returns the number of ticks since the cloth was made or reset.
+    pub fn ticks(&self) -> u32 {
+        self.world.tick
     }
 
-    /// Sets the velocity of a particle [m/s].
-    ///
-    /// # Errors
-    /// [`Error::BadIndex`](crate::Error::BadIndex) if `particle` does not exist;
-    /// [`Error::BadValue`](crate::Error::BadValue) if `velocity` is not finite. The cloth is
-    /// unchanged.
-    pub fn set_velocity(&mut self, particle: u32, velocity: Vec3) -> Result<()> {
-        check_index(particle, self.world.particles.len(), "particle")?;
-        check_finite(velocity, "velocity")?;
-        let (at, world) = (particle as usize, &mut self.world);
-        with_float_env(|| {
-            let x = world.particles.x.get(at);
-            world.set_particle_state(at, x, velocity);
-        });
-        self.update_state();
-        Ok(())
+    /// Returns whether the cloth sleeps, see [`Settings::sleep_speed`](crate::Settings): ticks then
+    /// move nothing until something wakes it.
+    pub fn is_asleep(&self) -> bool {
+        self.world.is_asleep()
     }
 
     /// Removes and returns the oldest unread event; `None` if there is none. The newest 1024 are

@@ -126,6 +126,17 @@ impl Cloth {
         Ok(self.world.pins.get(particle).map(|pin| pin.stiffness))
     }
 
+    /// Returns the target of a particle's pin [m], which the particle reaches with the next ticks;
+    /// that of an attached particle follows from the pose of its attachment. `None` if it is not
+    /// pinned.
+    ///
+    /// # Errors
+    /// [`Error::BadIndex`](crate::Error::BadIndex) if `particle` does not exist.
+    pub fn pin_target(&self, particle: u32) -> Result<Option<Vec3>> {
+        check_index(particle, self.world.particles.len(), "particle")?;
+        Ok(self.world.pins.get(particle).map(|pin| self.world.to_absolute(pin.target)))
+    }
+
     /// Requests that the next tick measures the tethers again.
     pub(super) fn mark_pins_changed(&mut self) {
         self.pins_changed = true;

@@ -189,29 +189,6 @@ impl Cloth {
         &self.outputs.frayed
     }
 
-    /// Returns the number of particles.
-    pub fn particle_count(&self) -> u32 {
-        self.world.particles.len() as u32
-    }
-
-    /// Returns the position of a particle [m]; `None` if it does not exist.
-    pub fn position(&self, particle: u32) -> Option<Vec3> {
-        let at = particle as usize;
-        let world = &self.world;
-        (at < world.particles.len()).then(|| world.to_absolute(world.particles.x.get(at)))
-    }
-
-    /// Returns the velocity of a particle [m/s]; `None` if it does not exist.
-    pub fn velocity(&self, particle: u32) -> Option<Vec3> {
-        let at = particle as usize;
-        (at < self.world.particles.len()).then(|| self.world.particles.v.get(at))
-    }
-
-    /// Returns the mass of a particle [kg]; `None` if it does not exist.
-    pub fn mass(&self, particle: u32) -> Option<f32> {
-        self.world.particles.mass.get(particle as usize).copied()
-    }
-
     /// Returns whether any of these addresses lies in an output list, up to its capacity. For
     /// bindings whose callers pass plain pointers.
     pub fn lends(&self, addresses: &Range<usize>) -> bool {

@@ -50,13 +50,15 @@ impl World {
         Event::new(kind, self.tick, self.to_absolute(x))
     }
 
-    /// Moves the origin to an absolute position [m] if the position would lose digits relative to
-    /// the current origin.
-    pub fn move_origin_near(&mut self, position: Vec3) {
-        let x = self.to_relative(position);
-        let loss = self.to_absolute(x) - position;
-        if loss.length_squared() > MAX_LOSS * MAX_LOSS {
-            self.move_origin(whole_metres(self.origin, x));
+    /// Moves the origin to the first of these absolute positions [m] that would lose digits relative
+    /// to the current origin, if there is one.
+    pub fn move_origin_near(&mut self, positions: &[Vec3]) {
+        let loses_digits = |position: &&Vec3| {
+            let loss = self.to_absolute(self.to_relative(**position)) - **position;
+            loss.length_squared() > MAX_LOSS * MAX_LOSS
+        };
+        if let Some(position) = positions.iter().find(loses_digits) {
+            self.move_origin(whole_metres(self.origin, self.to_relative(*position)));
         }
     }
 

@@ -92,6 +92,10 @@ pub(crate) struct ColliderBody {
     /// `solver::kinematic::tick_targets`.
     #[serde(skip)]
     pub final_pose: Pose,
+    /// Absolute pose at the end of the last tick, also after `move_frame` changed `last`; `None`
+    /// between `restore` and the next tick.
+    #[serde(skip)]
+    arrived: Option<Pose>,
     /// Shape built from the descriptor; `None` between reading a save and `restore`.
     #[serde(skip)]
     collision_shape: Option<Arc<CollisionShape>>,
@@ -110,6 +114,7 @@ impl ColliderBody {
             pending: Impulse::default(),
             center,
             final_pose: pose,
+            arrived: Some(pose),
             collision_shape: Some(shape),
         };
         body.place(pose.rotation, origin);
@@ -182,6 +187,14 @@ impl ColliderBody {
         self.next.offset(self.next.position.as_dvec3(), -self.center)
     }
 
+    /// The absolute pose at the end of the last tick.
+    pub fn pose(&self, origin: Vec3) -> Pose {
+        self.arrived.unwrap_or_else(|| {
+            let center = self.last.position.as_dvec3() + origin.as_dvec3();
+            Pose { position: self.last.offset(center, -self.center), ..self.last }
+        })
+    }
+
     /// Makes the poses relative to `origin`, which is `shift` from the last one.
     ///
     /// At rest, they are computed from the absolute position, which keeps its digits while the
@@ -208,6 +221,7 @@ impl ColliderBody {
     pub fn finish_tick(&mut self) {
         self.last = self.next;
         self.desc.rotation = self.next.rotation;
+        self.arrived = Some(Pose { position: self.desc.position, ..self.last });
     }
 }
 

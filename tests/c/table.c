@@ -170,6 +170,65 @@ static void parameters_time_and_particles(void) {
   ROW(muslin_cloth_set_velocity, velocity, VALUE, "`velocity`", (cloth, 0, not_finite));
 }
 
+static void poses_and_queries(void) {
+  static const float bad[6] = {0, 0, 0, 0, NAN, 0};
+  static float room[3 * 400];
+  const float *good = room;
+  MuslinWind wind = {1, 0, {0, 0, 0}, 0, 0, 0, 0, 0};
+  MuslinVec3 vector = {7, 7, 7};
+  double seconds = 7;
+  uint64_t ticks = 7;
+  float real = 7;
+  OF_NONE(muslin_cloth_set_positions, (none, 0, 1, good, 0));
+  ROW(muslin_cloth_set_positions, first, INDEX, "`first`", (cloth, 400, 1, good, 0));
+  ROW(muslin_cloth_set_positions, first, INDEX, "`first`", (cloth, UINT32_MAX, 2, good, 0));
+  ROW(muslin_cloth_set_positions, count, VALUE, "`count`", (cloth, 1, 400, good, 0));
+  ROW(muslin_cloth_set_positions, positions, VALUE, "`positions[1]`", (cloth, 0, 2, bad, 0));
+  ROW(muslin_cloth_set_positions, positions, VALUE, "`positions`", (cloth, 0, 2, NULL, 0));
+  ROW(muslin_cloth_set_positions, stride, VALUE, "`stride`", (cloth, 0, 2, good, 8));
+  OF_NONE(muslin_cloth_set_velocities, (none, 0, 1, good, 0));
+  ROW(muslin_cloth_set_velocities, first, INDEX, "`first`", (cloth, 400, 1, good, 0));
+  ROW(muslin_cloth_set_velocities, count, VALUE, "`count`", (cloth, 399, UINT32_MAX, good, 0));
+  ROW(muslin_cloth_set_velocities, velocities, VALUE, "`velocities[1]`", (cloth, 0, 2, bad, 0));
+  ROW(muslin_cloth_set_velocities, stride, VALUE, "`stride`", (cloth, 0, 2, good, 14));
+  OF_NONE(muslin_cloth_get_velocities, (none, 0, 1, room, 0));
+  ROW(muslin_cloth_get_velocities, first, INDEX, "`first`", (cloth, 400, 1, room, 0));
+  ROW(muslin_cloth_get_velocities, count, VALUE, "`count`", (cloth, 200, 201, room, 0));
+  ROW(muslin_cloth_get_velocities, out_velocities, VALUE, "`out_velocities`", (cloth, 0, 1, NULL, 0));
+  ROW(muslin_cloth_get_velocities, stride, VALUE, "`stride`", (cloth, 0, 1, room, 11));
+  OF_NONE(muslin_cloth_get_rest_positions, (none, 0, 1, room, 0));
+  ROW(muslin_cloth_get_rest_positions, first, INDEX, "`first`", (cloth, 401, 0, room, 0));
+  ROW(muslin_cloth_get_rest_positions, count, VALUE, "`count`", (cloth, 0, 401, room, 0));
+  ROW(muslin_cloth_get_rest_positions, out_positions, VALUE, "`out_positions`", (cloth, 0, 1, NULL, 0));
+  ROW(muslin_cloth_get_rest_positions, stride, VALUE, "`stride`", (cloth, 0, 1, room, 1));
+  OF_NONE(muslin_cloth_get_pins, (none, &word, 0, &word));
+  ROW(muslin_cloth_get_pins, out_particles, VALUE, "`out_particles`", (cloth, NULL, 400, &word));
+  ROW(muslin_cloth_get_pins, capacity, SMALL, "`capacity` must be 0 or at least 20", (cloth, &word, 1, &word));
+  ROW(muslin_cloth_get_pins, out_count, VALUE, "`out_count`", (cloth, &word, 0, NULL));
+  OF_NONE(muslin_cloth_get_pin_targets, (none, &first, room, 0, 1));
+  ROW(muslin_cloth_get_pin_targets, particles, INDEX, "`particles`", (cloth, &beyond, room, 0, 1));
+  ROW(muslin_cloth_get_pin_targets, particles, VALUE, "`particles`", (cloth, (uint32_t[]){0, 399}, room, 0, 2));
+  ROW(muslin_cloth_get_pin_targets, out_positions, VALUE, "`out_positions`", (cloth, &first, NULL, 0, 1));
+  ROW(muslin_cloth_get_pin_targets, stride, VALUE, "`stride`", (cloth, &first, room, 3, 1));
+  ROW(muslin_cloth_get_pin_targets, count, VALUE, "`count`", (cloth, many, room, 0, 401));
+  OF_NONE(muslin_cloth_get_blend, (none, &real));
+  ROW(muslin_cloth_get_blend, out_blend, VALUE, "`out_blend`", (cloth, NULL));
+  OF_NONE(muslin_cloth_is_asleep, (none, &word));
+  ROW(muslin_cloth_is_asleep, out_asleep, VALUE, "`out_asleep`", (cloth, NULL));
+  OF_NONE(muslin_cloth_get_wind, (none, &wind));
+  ROW(muslin_cloth_get_wind, out_wind, VALUE, "`out_wind->struct_size`", (cloth, &wind));
+  ROW(muslin_cloth_get_wind, out_wind, VALUE, "`out_wind`", (cloth, NULL));
+  OF_NONE(muslin_cloth_get_time, (none, &seconds, &ticks));
+  ANY(muslin_cloth_get_time, out_seconds);
+  ANY(muslin_cloth_get_time, out_ticks);
+  OF_NONE(muslin_cloth_get_mass, (none, &real, &vector, &vector));
+  ANY(muslin_cloth_get_mass, out_total);
+  ANY(muslin_cloth_get_mass, out_center);
+  ANY(muslin_cloth_get_mass, out_momentum);
+  CHECK(real == 7 && vector.y == 7 && seconds == 7 && ticks == 7);
+  for (int i = 0; i < 3 * 400; i++) CHECK(room[i] == 0);
+}
+
 static void attachments_anchors_and_frames(void) {
   MuslinAttachment body = {9};
   OF_NONE(muslin_cloth_attach, (none, &first, 1, zero, straight, &body));
@@ -277,6 +336,10 @@ static void colliders(void) {
   OF_NONE(muslin_cloth_teleport_collider, (none, body, zero, straight));
   OF_NONE(muslin_cloth_remove_collider, (none, body));
   OF_NONE(muslin_cloth_get_collider_impulse, (none, body, &linear, NULL));
+  OF_NONE(muslin_cloth_get_collider_pose, (none, body, &linear, NULL));
+  ROW(muslin_cloth_get_collider_pose, collider, HANDLE, "`collider`", (cloth, body, &linear, NULL));
+  ANY(muslin_cloth_get_collider_pose, out_position);
+  ANY(muslin_cloth_get_collider_pose, out_rotation);
   ROW(muslin_cloth_move_collider, collider, HANDLE, "`collider`", (cloth, body, zero, straight));
   ROW(muslin_cloth_teleport_collider, collider, HANDLE, "`collider`", (cloth, body, zero, straight));
   ROW(muslin_cloth_remove_collider, collider, HANDLE, "`collider`", (cloth, body));
@@ -385,6 +448,7 @@ int main(void) {
   TEST(init_functions);
   TEST(creating_destroying_and_saving);
   TEST(parameters_time_and_particles);
+  TEST(poses_and_queries);
   TEST(attachments_anchors_and_frames);
   TEST(rays_grabs_tears_and_cuts);
   TEST(colliders);

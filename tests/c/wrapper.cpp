@@ -53,6 +53,28 @@ void worn(muslin::Cloth &cloth) {
   for (const std::uint32_t particle : edge) cloth.pin(particle).value();
 }
 
+// Whole poses, and cheap questions.
+void posed(muslin::Cloth &cloth) {
+  std::vector<float> rest(3 * 400), velocities(3 * 400);
+  cloth.get_rest_positions(0, 400, rest.data()).value();
+  CHECK(rest[3 * 399] > rest[0] && rest[2] == 0.0f);
+  cloth.get_velocities(0, 400, velocities.data()).value();
+  cloth.set_positions(380, 20, rest.data() + 3 * 380).value();
+  CHECK(cloth.view().value().positions[3 * 399 + 1] == rest[3 * 399 + 1]);
+  const float up[] = {0, 1, 0};
+  cloth.set_velocities(399, 1, up).value();
+  CHECK(cloth.mass().value().momentum.y > -1.0f && cloth.mass().value().total > 0.01f);
+  cloth.set_velocities(0, 400, velocities.data()).value();
+  const std::vector<std::uint32_t> pins = cloth.pins().value();
+  CHECK(pins.size() == 20 && pins.back() == 19);
+  std::vector<float> targets(3 * pins.size());
+  cloth.get_pin_targets(pins.data(), targets.data(), 0, 20).value();
+  CHECK(targets[3] == rest[3]);
+  CHECK(cloth.time().value().ticks == 22 && cloth.time().value().seconds > 0.3);
+  CHECK(cloth.blend().value() < 1e-3f && !cloth.is_asleep().value());
+  CHECK(cloth.wind().value().velocity.z == 1.0f);
+}
+
 void a_cloth_does_all_that_c_does() {
   MuslinGridDesc desc = muslin::grid_desc();
   desc.columns = desc.rows = 20;
@@ -72,6 +94,8 @@ void a_cloth_does_all_that_c_does() {
   const MuslinCollider collider = cloth.add_collider(floor).value();
   CHECK(cloth.advance(1.0f / 30.0f).value() == 2);
   cloth.step(20).value();
+  posed(cloth);
+  CHECK(cloth.collider_pose(collider).value().position.y == -9.0f);
   cloth.move_collider(collider, {0, -8, 0}, {0, 0, 0, 1}).value();
   CHECK(cloth.collider_impulse(collider).value().linear.y == 0.0f);
   cloth.teleport_collider(collider, {0, -9, 0}, {0, 0, 0, 1}).value();

@@ -10,6 +10,7 @@ mod examples;
 mod extreme_input;
 mod fuzz_regressions;
 mod pins;
+mod poses;
 mod refusals;
 mod scenes;
 mod source_shape;

@@ -118,7 +118,9 @@ impl CallError {
 impl From<Error> for CallError {
     fn from(error: Error) -> Self {
         let status = match error {
-            Error::BadValue { .. } | Error::BadStream { .. } => MuslinStatus::BadValue,
+            Error::BadValue { .. } | Error::BadEntry { .. } | Error::BadStream { .. } => {
+                MuslinStatus::BadValue
+            }
             Error::SmallStream { .. } => MuslinStatus::BufferTooSmall,
             Error::BadIndex { .. } => MuslinStatus::BadIndex,
             Error::BadHandle { .. } => MuslinStatus::BadHandle,

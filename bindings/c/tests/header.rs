@@ -32,6 +32,8 @@ const FILES: [&str; 33] = [
     "functions/create.rs",
     "functions/parameters.rs",
     "functions/time.rs",
+    "functions/queries.rs",
+    "functions/pins.rs",
     "functions/particles.rs",
     "functions/attachments.rs",
     "functions/anchors.rs",

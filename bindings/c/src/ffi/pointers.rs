@@ -102,9 +102,7 @@ pub unsafe fn read_vec3s(
     stride: u32,
     count: u32,
 ) -> Result<Vec<Vec3>> {
-    let stride = if stride == 0 { 12 } else { stride as usize };
-    let fits = stride >= 12 && stride.is_multiple_of(4);
-    check(fits, "stride", "be 0 or a multiple of 4 that is at least 12")?;
+    let stride = stride_of_points(stride)?;
     if count == 0 {
         return Ok(Vec::new());
     }
@@ -115,6 +113,45 @@ pub unsafe fn read_vec3s(
         Vec3::from(point)
     };
     Ok((0..count as usize).map(point).collect())
+}
+
+/// Returns the distance between the starts of consecutive points [bytes]; 0 means 12.
+fn stride_of_points(stride: u32) -> Result<usize> {
+    let stride = if stride == 0 { 12 } else { stride as usize };
+    let fits = stride >= 12 && stride.is_multiple_of(4);
+    check(fits, "stride", "be 0 or a multiple of 4 that is at least 12")?;
+    Ok(stride)
+}
+
+/// A list of the caller that receives points.
+pub struct OutVec3s {
+    at: *mut f32,
+    stride: usize,
+    count: usize,
+}
+
+impl OutVec3s {
+    /// A list of `count` points whose starts are `stride` bytes apart; 0 means 12. The pointer may
+    /// be NULL if `count` is 0.
+    ///
+    /// # Safety
+    /// `at` is NULL or points to `count` points with that stride that are writable until the call
+    /// returns.
+    pub unsafe fn new(name: &str, at: *mut f32, stride: u32, count: u32) -> Result<Self> {
+        let stride = stride_of_points(stride)?;
+        if count > 0 {
+            check_not_null(name, at)?;
+        }
+        Ok(Self { at, stride, count: count as usize })
+    }
+
+    /// Writes as many points as the list holds.
+    pub fn write(self, points: impl Iterator<Item = Vec3>) {
+        for (i, point) in points.take(self.count).enumerate() {
+            // SAFETY: the creator of `self` guaranteed `count` writable points, and `i` is below it.
+            unsafe { self.at.byte_add(i * self.stride).cast::<Vec3>().write_unaligned(point) };
+        }
+    }
 }
 
 /// Borrows `size` bytes of the caller.

@@ -60,6 +60,31 @@ pub extern "C" fn muslin_cloth_remove_collider(
     with_cloth(cloth, |cloth| Ok(cloth.remove_collider(Collider::from_bits(collider.id))?))
 }
 
+/// Reads where a collider is now: after the last tick, or where it was added or teleported to since.
+/// A pose of muslin_cloth_move_collider counts once a tick has reached it.
+///
+/// `out_position` (may be NULL) receives the position [m], `out_rotation` (may be NULL) the
+/// rotation.
+///
+/// @return MUSLIN_STATUS_BAD_HANDLE if it was removed
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_get_collider_pose(
+    cloth: MuslinCloth,
+    collider: MuslinCollider,
+    out_position: *mut MuslinVec3,
+    out_rotation: *mut MuslinQuat,
+) -> MuslinStatus {
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+    let (out_position, out_rotation) =
+        unsafe { (Out::new_optional(out_position), Out::new_optional(out_rotation)) };
+    with_cloth(cloth, |cloth| {
+        let (position, rotation) = cloth.collider_pose(Collider::from_bits(collider.id))?;
+        out_position.into_iter().for_each(|out| out.write(position.into()));
+        out_rotation.into_iter().for_each(|out| out.write(rotation.into()));
+        Ok(())
+    })
+}
+
 /// Reads the impulse that the cloth applied to a collider in the last tick.
 ///
 /// `out_linear` (may be NULL) receives the linear impulse [kg m/s], `out_angular` (may be NULL) the

@@ -12,6 +12,8 @@ mod library;
 mod parameters;
 mod particles;
 mod picking;
+mod pins;
+mod queries;
 mod reference_frame;
 mod save;
 mod skins;

@@ -1,109 +1,10 @@
-//! Pins, mass scales, positions and velocities of particles.
+//! Mass scales, positions and velocities of particles.
 
-use crate::ffi::pointers::{read_f32s, read_optional, read_u32s, read_vec3s};
+use crate::ffi::pointers::{OutVec3s, check, read_f32s, read_u32s, read_vec3s};
 use crate::registry::with_cloth;
 use crate::status::{CallError, MuslinStatus, Result};
 use crate::types::value::{MuslinCloth, MuslinVec3};
-use core::ffi::c_void;
 use muslin_core::{Cloth, Error};
-
-/// Pins a particle at `target` [m], or at its current position if `target` is NULL.
-///
-/// The particle reaches the target evenly over the ticks of the next muslin_cloth_advance, or in
-/// the next tick of muslin_cloth_step. If it is already pinned, the target changes and the
-/// stiffness stays; an attached particle leaves its attachment.
-///
-/// @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist; MUSLIN_STATUS_BAD_VALUE if the
-/// target is not finite
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn muslin_cloth_pin(
-    cloth: MuslinCloth,
-    particle: u32,
-    target: *const MuslinVec3,
-) -> MuslinStatus {
-    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
-    let target = unsafe { read_optional(target) };
-    with_cloth(cloth, |cloth| Ok(cloth.pin(particle, target.map(Into::into))?))
-}
-
-/// Releases a pinned particle, which keeps its velocity. Has no effect on a particle that is not
-/// pinned.
-///
-/// @return MUSLIN_STATUS_BAD_INDEX if the particle does not exist
-#[unsafe(no_mangle)]
-pub extern "C" fn muslin_cloth_unpin(cloth: MuslinCloth, particle: u32) -> MuslinStatus {
-    with_cloth(cloth, |cloth| Ok(cloth.unpin(particle)?))
-}
-
-/// Releases all pinned particles.
-#[unsafe(no_mangle)]
-pub extern "C" fn muslin_cloth_unpin_all(cloth: MuslinCloth) -> MuslinStatus {
-    with_cloth(cloth, |cloth| {
-        cloth.unpin_all();
-        Ok(())
-    })
-}
-
-/// Sets the targets [m] of `count` pins at once, e.g. every frame for an animated edge. Particles
-/// that are not pinned yet become pinned. They reach their targets as those of muslin_cloth_pin.
-///
-/// Targets are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a multiple
-/// of 4). With `count` 0 both pointers may be NULL.
-///
-/// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
-/// target is not finite, `stride` is invalid, or `count` exceeds the number of particles
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn muslin_cloth_set_pin_targets(
-    cloth: MuslinCloth,
-    particles: *const u32,
-    positions: *const c_void,
-    stride: u32,
-    count: u32,
-) -> MuslinStatus {
-    with_cloth(cloth, |cloth| {
-        check_count(cloth, count)?;
-        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
-        let (particles, targets) = unsafe {
-            (
-                read_u32s("particles", particles, count)?,
-                read_vec3s("positions", positions, stride, count)?,
-            )
-        };
-        cloth.set_pin_targets(&particles, &targets).map_err(|error| match error {
-            Error::BadValue { must, .. } => CallError::bad_value("positions", must),
-            error => error.into(),
-        })
-    })
-}
-
-/// Sets the stiffness [N/m] with which `count` pins pull particles towards their targets. 0, the
-/// initial value, holds them exactly; above 0 the pin is a spring.
-///
-/// - A load of 1 N moves a soft pin's particle 1/`stiffness` metres from its target: 1e3 N/m feels
-///   firm, 10 N/m lets a sheet of cotton sag by a few centimetres.
-/// - For tears and `max_stretch` the cloth counts as free at a soft pin, and it is not tethered to
-///   it.
-/// - A tear through a soft pin divides its stiffness in proportion to mass.
-///
-/// With `count` 0 the pointer may be NULL.
-///
-/// @return MUSLIN_STATUS_BAD_INDEX if a particle does not exist; MUSLIN_STATUS_BAD_VALUE if a
-/// particle is not pinned, `stiffness` is negative or not finite, or `count` exceeds the number of
-/// particles
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn muslin_cloth_set_pin_stiffness(
-    cloth: MuslinCloth,
-    particles: *const u32,
-    count: u32,
-    stiffness: f32,
-) -> MuslinStatus {
-    with_cloth(cloth, |cloth| {
-        check_count(cloth, count)?;
-        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
-        let particles = unsafe { read_u32s("particles", particles, count)? };
-        Ok(cloth.set_pin_stiffness(&particles, stiffness)?)
-    })
-}
 
 /// Multiplies the masses of `count` particles by factors: 1, the initial value, keeps the mass that
 /// density and surrounding area give. A hem hangs straight at about 5; a coin that is sewn in may
@@ -157,6 +58,117 @@ pub extern "C" fn muslin_cloth_set_velocity(
     velocity: MuslinVec3,
 ) -> MuslinStatus {
     with_cloth(cloth, |cloth| Ok(cloth.set_velocity(particle, velocity.into())?))
+}
+
+/// Places `count` particles, from `first` on, at once [m]: a whole pose, if `first` is 0 and `count`
+/// the number of particles.
+///
+/// Velocities stay as they are; call muslin_cloth_set_velocities too to continue from a recorded
+/// state. Pinned particles stay pinned, at the new positions. Positions are 3 floats each;
+/// consecutive ones start `stride` bytes apart (0 means 12; a multiple of 4). With `count` 0 the
+/// pointer may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if particle `first` does not exist; MUSLIN_STATUS_BAD_VALUE if a
+/// position is not finite (the message names its index), `stride` is invalid, or `count` exceeds
+/// the number of particles from `first` on
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_set_positions(
+    cloth: MuslinCloth,
+    first: u32,
+    count: u32,
+    positions: *const f32,
+    stride: u32,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| {
+        check_range(cloth, first, count)?;
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+        let positions = unsafe { read_vec3s("positions", positions.cast(), stride, count)? };
+        Ok(cloth.set_positions(first, &positions)?)
+    })
+}
+
+/// Sets the velocities of `count` particles, from `first` on [m/s].
+///
+/// Velocities are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a
+/// multiple of 4). With `count` 0 the pointer may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if particle `first` does not exist; MUSLIN_STATUS_BAD_VALUE if a
+/// velocity is not finite (the message names its index), `stride` is invalid, or `count` exceeds
+/// the number of particles from `first` on
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_set_velocities(
+    cloth: MuslinCloth,
+    first: u32,
+    count: u32,
+    velocities: *const f32,
+    stride: u32,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| {
+        check_range(cloth, first, count)?;
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+        let velocities = unsafe { read_vec3s("velocities", velocities.cast(), stride, count)? };
+        Ok(cloth.set_velocities(first, &velocities)?)
+    })
+}
+
+/// Reads the velocities of `count` particles, from `first` on [m/s].
+///
+/// Velocities are 3 floats each; consecutive ones start `stride` bytes apart (0 means 12; a
+/// multiple of 4), and the bytes between them do not change. With `count` 0 the pointer may be
+/// NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if particle `first` does not exist; MUSLIN_STATUS_BAD_VALUE if
+/// `stride` is invalid, or `count` exceeds the number of particles from `first` on
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_get_velocities(
+    cloth: MuslinCloth,
+    first: u32,
+    count: u32,
+    out_velocities: *mut f32,
+    stride: u32,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| {
+        check_range(cloth, first, count)?;
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+        let out = unsafe { OutVec3s::new("out_velocities", out_velocities, stride, count)? };
+        out.write(cloth.velocities().skip(first as usize));
+        Ok(())
+    })
+}
+
+/// Reads the positions that `count` particles, from `first` on, have in the rest shape [m]: where
+/// the descriptor placed them, whatever moved them since.
+///
+/// A particle that a tear split off has the position of its source; one that a cut added has the
+/// point of the rest edge that was cut. Strides are as in muslin_cloth_get_velocities. With `count`
+/// 0 the pointer may be NULL.
+///
+/// @return MUSLIN_STATUS_BAD_INDEX if particle `first` does not exist; MUSLIN_STATUS_BAD_VALUE if
+/// `stride` is invalid, or `count` exceeds the number of particles from `first` on
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_get_rest_positions(
+    cloth: MuslinCloth,
+    first: u32,
+    count: u32,
+    out_positions: *mut f32,
+    stride: u32,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| {
+        check_range(cloth, first, count)?;
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+        let out = unsafe { OutVec3s::new("out_positions", out_positions, stride, count)? };
+        out.write(cloth.rest_positions().skip(first as usize));
+        Ok(())
+    })
+}
+
+/// Refuses a range of particles that is not part of the cloth.
+fn check_range(cloth: &Cloth, first: u32, count: u32) -> Result {
+    let particles = cloth.particle_count();
+    let Some(left) = particles.checked_sub(first).filter(|left| *left > 0 || count == 0) else {
+        return Err(Error::BadIndex { field: "first", index: first, count: particles }.into());
+    };
+    check(count <= left, "count", "be at most the number of particles from `first` on")
 }
 
 /// Refuses a count that exceeds the number of particles.

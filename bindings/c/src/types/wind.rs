@@ -36,7 +36,12 @@ pub struct MuslinWind {
 
 impl Default for MuslinWind {
     fn default() -> Self {
-        let wind = Wind::default();
+        Self::from(&Wind::default())
+    }
+}
+
+impl From<&Wind> for MuslinWind {
+    fn from(wind: &Wind) -> Self {
         Self {
             struct_size: size_of::<Self>() as u32,
             model: wind.model as u32,
