@@ -10,7 +10,7 @@ const COMMAND: &str = "MUSLIN_BLESS=1 cargo test -p muslin-c --test header";
 
 /// The source files with items of the header, in its order: types before the types that contain them,
 /// then functions by theme.
-const FILES: [&str; 33] = [
+const FILES: [&str; 35] = [
     "status.rs",
     "log.rs",
     "types/value.rs",

@@ -10,6 +10,7 @@ use super::library::*;
 use super::parameters::*;
 use super::particles::*;
 use super::picking::*;
+use super::pins::*;
 use super::save::*;
 use super::time::*;
 use super::topology::*;
