@@ -6,16 +6,16 @@
 //! A slot gets a new generation when its value is removed, so a handle to the removed value no
 //! longer matches. A generation repeats after 65,535 removals from one slot.
 //!
-//! Slots are made when they are first needed, so iteration and memory cost nothing for those that
-//! never were.
+//! Slots are made when they are first needed, so iteration costs nothing for those that never were.
 //!
-//! Invariant: a slot is never dropped, so its generation is not forgotten.
+//! Invariants: `insert` never allocates, because the memory of all slots is reserved from the start;
+//! a slot is never dropped, so its generation is not forgotten.
 
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 
 /// Values addressed by handles: `generation << 16 | slot + 1`. The handle 0 names nothing.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Arena<T> {
     slots: Vec<Slot<T>>,
     /// The largest number of slots.
@@ -28,14 +28,26 @@ struct Slot<T> {
     value: Option<T>,
 }
 
+impl<T: Clone> Clone for Arena<T> {
+    fn clone(&self) -> Self {
+        let mut copy = Self::with_capacity(self.capacity);
+        copy.slots.extend(self.slots.iter().cloned());
+        copy
+    }
+}
+
 impl<T> Arena<T> {
     /// Makes an empty arena for at most `capacity` values.
     pub fn with_capacity(capacity: u16) -> Self {
-        Self { slots: Vec::new(), capacity }
+        Self { slots: Vec::with_capacity(capacity.into()), capacity }
     }
 
-    /// Stores `value` in the lowest free slot and returns its handle. Allocates if no slot has
-    /// become free.
+    /// Reserves the memory of all slots, for an arena that was read from a save.
+    pub fn reserve(&mut self) {
+        self.slots.reserve_exact(usize::from(self.capacity).saturating_sub(self.slots.len()));
+    }
+
+    /// Stores `value` in the lowest free slot and returns its handle.
     ///
     /// # Errors
     /// [`Error::Full`] with `what` if no slot is free.

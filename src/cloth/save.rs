@@ -293,6 +293,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     restore_pins_and_grabs(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();
     require(colliders.is_within(MAX_COLLIDERS))?;
+    colliders.reserve();
     for body in colliders.iter_mut() {
         body.restore()?;
     }
@@ -350,6 +351,9 @@ fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
     let are_sound = attachments.iter().all(is_sound);
     let fits = are_sound && attachments.is_within(MAX_ATTACHMENTS);
     world.attachments = attachments;
+    if fits {
+        world.attachments.reserve();
+    }
     fits
 }
 
@@ -372,6 +376,7 @@ fn restore_pins_and_grabs(
         return Err(bad());
     }
     (world.pins, world.grabs) = (pins, grabs);
+    world.grabs.reserve();
     world.pins.reserve(world.capacity());
     world.reserve_effective_mass();
     Ok(())
