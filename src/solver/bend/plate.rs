@@ -1,27 +1,37 @@
 //! Bending of a grid by plate elements: one implicit step for the whole sheet.
 //!
 //! ```text
-//! M d = −h² K (x + d)         K = K_weft + K_warp + K_twist,  d: displacement by bending
-//! (µM + h² K_weft) (µM)⁻¹ (µM + h² K_warp) Δ = −h² K x − M d
+//! M d = −h² K (x + d)          K = K_weft + K_warp + K_twist,  d: displacement by bending
+//!
+//! weft ▶ warp ▶ twist          first solve: (M + h² K_i) Δ_i = −h² K_i x − M d_i
+//! twist ▶ warp ▶ weft          second solve: (µ M + h² K_i) Δ_i, with the same right side
 //! ```
 //! Method: K couples so widely that Gauss–Seidel sweeps over elements would take thousands of
 //! iterations for a sheet as stiff as paper. K_weft and K_warp are pentadiagonal along rows and
-//! columns, so their factors are cheap (`banded`), and the product above removes most of the error
-//! at any stiffness: the alternating direction implicit method (ADI; Peaceman and Rachford 1955;
-//! Wachspress on the shifts µ). At equilibrium the right side is zero, so the rest shape does not
-//! depend on the number of solves. `twist` solves the twist, and `chebyshev` soft sheets.
+//! columns, so their factors are cheap (`banded`). Each of the three parts is solved by itself, with
+//! the forces of the others as they are: block Gauss–Seidel for the multipliers of XPBD (Macklin,
+//! Müller, Chentanez, MIG 2016). d_i is what part i has done so far. At equilibrium the right side is
+//! zero, so the rest shape does not depend on the number of solves. `twist` solves the twist, and
+//! `chebyshev` soft sheets.
+//!
+//! Each solve is a projection in the norm of the energy, or part of one for µ > 1, and the second
+//! solve mirrors the first. So x + d is x times a symmetric matrix with eigenvalues from 0 to 1,
+//! which no time integration scheme turns into growth. A product of both directions (ADI; Peaceman
+//! and Rachford 1955) is not: where pins and cuts keep K_weft and K_warp from commuting it has
+//! complex eigenvalues, which add energy. µ leaves to the links what they did in between. Without a
+//! second solve, the first runs the parts in both orders.
 //!
 //! Reads plate elements, folds, masses and positions; writes positions and `PlateScratch`.
 //! Invariant: factors and bound are recomputed when pins, masses, elements or stiffness change.
 
 use crate::math::columns::Columns;
-use crate::math::same_bits;
 use crate::math::simd::{Level, leveled};
+use crate::math::{max, same_bits};
 use crate::model::hardening::Softening;
 use crate::model::plate_elements::{PerKind, PlateElements};
-use crate::solver::bend::adi_factors::AdiFactors;
 use crate::solver::bend::banded::VectorColumns;
 use crate::solver::bend::chebyshev::ChebyshevSteps;
+use crate::solver::bend::line_factors::LineFactors;
 use crate::solver::bend::spectral_bound;
 use crate::solver::bend::twist::{Twist, TwistOffset};
 
@@ -45,9 +55,9 @@ pub(crate) struct PlateScratch {
     force: VectorColumns,
     /// Upper bound of the stiffness over mass of any shape, relative to an interior element [1/kg].
     bound: f32,
-    /// Displacement by bending in this substep [m].
-    total: VectorColumns,
-    solves: [AdiFactors; 2],
+    /// Displacement by the weft and by the warp elements in this substep [m].
+    total: [VectorColumns; 2],
+    factors: [LineFactors; 2],
     twist: Twist,
     w: Vec<f32>,
     mass: Vec<f32>,
@@ -68,6 +78,8 @@ pub(crate) struct PlateStep<'a> {
     pub start_share: f32,
     /// Whether this is the first solve of the substep.
     pub is_first: bool,
+    /// Whether the substep has no second solve.
+    pub is_only: bool,
     /// Predicted positions and displacements; their difference is the start position.
     pub predicted: &'a Columns,
     pub displacement: &'a Columns,
@@ -88,8 +100,8 @@ impl PlateScratch {
             shifted: list(),
             force: [list(), list(), list()],
             bound: 0.0,
-            total: [list(), list(), list()],
-            solves: [AdiFactors::new(count), AdiFactors::new(count)],
+            total: [[list(), list(), list()], [list(), list(), list()]],
+            factors: [LineFactors::new(count), LineFactors::new(count)],
             twist: Twist::new(plates),
             w: vec![-1.0; count],
             mass: list(),
@@ -148,41 +160,94 @@ impl PlateScratch {
         columns: usize,
         axis: usize,
         x: &[f32],
-        has_twist: bool,
     ) {
         let Self { weight, curve, shifted, force, .. } = self;
-        let count = shifted.len();
-        let x = &x[..count];
-        let shifted = if step.start_share == 0.0 {
-            x
-        } else {
-            let start = [
-                &step.predicted.slices()[axis][..count],
-                &step.displacement.slices()[axis][..count],
-            ];
-            subtract_start(step.level, shifted, x, start, step.start_share);
-            &shifted[..]
-        };
-        compute_curvature(step.level, shifted, weight, curve, columns);
-        if has_twist {
-            compute_twist(step.level, shifted, &weight[2], &mut curve[2], columns);
-        }
-        if let Some((rest, directions)) = step.rest {
-            let share = 1.0 - step.start_share;
-            for kind in 0..if has_twist { 3 } else { 2 } {
-                let (weight, rest) = (&weight[kind], &rest[kind]);
-                let direction = &directions[kind].slices()[axis][..count];
-                subtract_rest(
-                    step.level,
-                    weight,
-                    rest,
-                    direction,
-                    share,
-                    &mut curve[kind][columns + 1..],
-                );
-            }
+        let x = shift_positions(step, axis, x, shifted);
+        compute_curvature(step.level, x, weight, curve, columns);
+        compute_twist(step.level, x, &weight[2], &mut curve[2], columns);
+        for kind in 0..3 {
+            subtract_rest_of(step, kind, axis, &weight[kind], &mut curve[kind][columns + 1..]);
         }
         gather_forces(step.level, curve, stiffness, &mut force[axis], columns);
+    }
+
+    /// Solves the elements of one direction exactly, given what all others have done so far, and
+    /// moves the particles: (M + h² K) Δ = −h² K x − M d, d: what this direction has done so far.
+    fn solve_direction(
+        &mut self,
+        step: PlateStep<'_>,
+        direction: Direction,
+        columns: usize,
+        x: &mut Columns,
+        mass: &[f32],
+        is_first: bool,
+    ) {
+        let Self { weight, curve, shifted, force, total, factors, .. } = self;
+        let (kind, stride) = match direction {
+            Direction::Weft => (0, 1),
+            Direction::Warp => (1, columns),
+        };
+        let factors = &factors[if is_first { 0 } else { 1 }];
+        let (weight, curve, total) = (&weight[kind], &mut curve[kind], &mut total[kind]);
+        let inside = columns + 1..columns + 1 + weight.len();
+        for (axis, (force, total)) in force.iter_mut().zip(&*total).enumerate() {
+            let x = shift_positions(step, axis, x.slices()[axis], shifted);
+            compute_line_curvature(step.level, x, weight, &mut curve[inside.clone()], stride);
+            subtract_rest_of(step, kind, axis, weight, &mut curve[inside.clone()]);
+            gather_line_forces(step.level, curve, factors.stiffness, force, [columns + 1, stride]);
+            if !is_first {
+                subtract_momentum(step.level, force, total, mass);
+            }
+        }
+        match direction {
+            Direction::Weft => factors.weft.solve_rows(columns, force),
+            Direction::Warp => factors.warp.solve_columns(step.level, columns, force),
+        }
+        for ((x, displacement), total) in x.slices_mut().into_iter().zip(&*force).zip(total) {
+            let x = &mut x[..total.len()];
+            apply_displacement(step.level, x, displacement, total, is_first);
+        }
+    }
+}
+
+/// Direction of second differences.
+#[derive(Clone, Copy, Debug)]
+enum Direction {
+    Weft,
+    Warp,
+}
+
+/// Positions along one axis less the damping share of the start positions, which are stored in
+/// `shifted`; without damping the positions themselves.
+fn shift_positions<'a>(
+    step: PlateStep<'_>,
+    axis: usize,
+    x: &'a [f32],
+    shifted: &'a mut [f32],
+) -> &'a [f32] {
+    let count = shifted.len();
+    let x = &x[..count];
+    if step.start_share == 0.0 {
+        return x;
+    }
+    let start =
+        [&step.predicted.slices()[axis][..count], &step.displacement.slices()[axis][..count]];
+    subtract_start(step.level, shifted, x, start, step.start_share);
+    shifted
+}
+
+/// Subtracts the rest curvature of the elements of one kind along one axis, if there are folds.
+fn subtract_rest_of(
+    step: PlateStep<'_>,
+    kind: usize,
+    axis: usize,
+    weight: &[f32],
+    curve: &mut [f32],
+) {
+    if let Some((rest, directions)) = step.rest {
+        let direction = &directions[kind].slices()[axis][..weight.len()];
+        let share = 1.0 - step.start_share;
+        subtract_rest(step.level, weight, &rest[kind], direction, share, curve);
     }
 }
 
@@ -196,10 +261,10 @@ fn solve_chebyshev(
     x: &mut Columns,
 ) {
     for (axis, x) in x.slices_mut().into_iter().enumerate() {
-        scratch.compute_force(step, stiffness, columns, axis, x, true);
+        scratch.compute_force(step, stiffness, columns, axis, x);
         let PlateScratch { weight, curve, shifted: force_change, force, total, w, mass, .. } =
             &mut *scratch;
-        let (force, displacement) = (&mut force[axis][..], &mut total[axis][..]);
+        let (force, displacement) = (&mut force[axis][..], &mut total[0][axis][..]);
         let x = &mut x[..displacement.len()];
         let [[_, gain], rest @ ..] = chebyshev.steps() else {
             displacement.fill(0.0);
@@ -244,7 +309,7 @@ pub(crate) fn solve(
     if let Some(chebyshev) = ChebyshevSteps::new(scratch.bound * stiffness) {
         if step.is_first {
             // Invalidate the factors, because `refresh` may have changed pins and masses.
-            scratch.solves.iter_mut().for_each(|factors| factors.stiffness = -1.0);
+            scratch.factors.iter_mut().for_each(|factors| factors.stiffness = -1.0);
             solve_chebyshev(scratch, step, stiffness, columns, &chebyshev, x);
         }
         return;
@@ -254,53 +319,36 @@ pub(crate) fn solve(
         return;
     }
     if step.is_first {
-        scratch.curve[2].fill(0.0);
-        if has_changed || scratch.solves[0].stiffness != stiffness {
+        if has_changed || scratch.factors[0].stiffness != stiffness {
             scratch.twist.factor(plates, &scratch.weight[2], w, stiffness);
         }
-        let second_shift = SHIFT_FACTOR * stiffness_over_mass.sqrt();
-        for (factors, shift) in scratch.solves.iter_mut().zip([1.0, second_shift]) {
+        let shift =
+            if step.is_only { 1.0 } else { max(1.0, SHIFT_FACTOR * stiffness_over_mass.sqrt()) };
+        for (factors, shift) in scratch.factors.iter_mut().zip([1.0, shift]) {
             if has_changed || factors.stiffness != stiffness || factors.shift != shift {
                 (factors.stiffness, factors.shift) = (stiffness, shift);
                 factors.factor(plates, &scratch.weight, &scratch.w, &scratch.mass);
             }
         }
     }
-    let from = TwistOffset {
+    let offset = TwistOffset {
         start_share: step.start_share,
         predicted: step.predicted,
         displacement: step.displacement,
         rest: step.rest.map(|(rest, directions)| (&rest[2][..], &directions[2])),
     };
-    if !step.is_first {
-        scratch.twist.solve(step.level, columns, x, w, from, false);
-    }
-    for axis in 0..3 {
-        scratch.compute_force(step, stiffness, columns, axis, x.slices()[axis], false);
-        if !step.is_first {
-            for ((force, total), mass) in
-                scratch.force[axis].iter_mut().zip(&scratch.total[axis]).zip(mass)
-            {
-                *force -= total * mass;
-            }
+    let mass = &mass[..count];
+    if step.is_first {
+        for direction in [Direction::Weft, Direction::Warp] {
+            scratch.solve_direction(step, direction, columns, x, mass, true);
         }
+        scratch.twist.solve(step.level, columns, x, w, offset, true);
     }
-    let PlateScratch { force, total, solves, twist, .. } = scratch;
-    let factors = &solves[if step.is_first { 0 } else { 1 }];
-    if step.is_first {
-        factors.weft.solve_rows(columns, force);
-        factors.scale_by_shifted_mass(step.level, &mass[..count], force);
-        factors.warp.solve_columns(step.level, columns, force);
-    } else {
-        factors.warp.solve_columns(step.level, columns, force);
-        factors.scale_by_shifted_mass(step.level, &mass[..count], force);
-        factors.weft.solve_rows(columns, force);
-    }
-    for ((x, displacement), total) in x.slices_mut().into_iter().zip(&*force).zip(total) {
-        apply_displacement(step.level, &mut x[..count], displacement, total, step.is_first);
-    }
-    if step.is_first {
-        twist.solve(step.level, columns, x, w, from, true);
+    if !step.is_first || step.is_only {
+        scratch.twist.solve(step.level, columns, x, w, offset, false);
+        for direction in [Direction::Warp, Direction::Weft] {
+            scratch.solve_direction(step, direction, columns, x, mass, false);
+        }
     }
 }
 
@@ -476,6 +524,63 @@ fn next_step_lanes(
         *force += force_change - mass * *displacement;
         *displacement = *displacement * keep + *force * w * gain;
         *x += *displacement;
+    }
+}
+
+leveled! {
+    /// Computes the weighted second difference of particles `stride` apart.
+    fn compute_line_curvature(x: &[f32], weight: &[f32], curve: &mut [f32], stride: usize)
+        = compute_line_curvature_lanes
+}
+
+#[inline(always)]
+fn compute_line_curvature_lanes(x: &[f32], weight: &[f32], curve: &mut [f32], stride: usize) {
+    let inner = stride..x.len() - stride;
+    let ends = x[..x.len() - 2 * stride].iter().zip(&x[2 * stride..]);
+    let out = curve[inner.clone()].iter_mut().zip(&weight[inner.clone()]);
+    for (((out, weight), (a, b)), m) in out.zip(ends).zip(&x[inner]) {
+        *out = ((a + b) - 2.0 * m) * weight;
+    }
+}
+
+leveled! {
+    /// Gathers the force of second differences of particles `stride` apart on each particle, times
+    /// h². The curvature of particle 0 is at index `margin`.
+    fn gather_line_forces(
+        curve: &[f32],
+        stiffness: f32,
+        force: &mut [f32],
+        layout: [usize; 2],
+    ) = gather_line_forces_lanes
+}
+
+#[inline(always)]
+fn gather_line_forces_lanes(
+    curve: &[f32],
+    stiffness: f32,
+    force: &mut [f32],
+    [margin, stride]: [usize; 2],
+) {
+    let count = force.len();
+    let before = &curve[margin - stride..][..count];
+    let after = &curve[margin + stride..][..count];
+    for (((force, before), own), after) in
+        force.iter_mut().zip(before).zip(&curve[margin..][..count]).zip(after)
+    {
+        *force = ((2.0 * own - before) - after) * stiffness;
+    }
+}
+
+leveled! {
+    /// Subtracts the momentum of displacements from forces.
+    fn subtract_momentum(force: &mut [f32], displacement: &[f32], mass: &[f32])
+        = subtract_momentum_lanes
+}
+
+#[inline(always)]
+fn subtract_momentum_lanes(force: &mut [f32], displacement: &[f32], mass: &[f32]) {
+    for ((force, displacement), mass) in force.iter_mut().zip(displacement).zip(mass) {
+        *force -= displacement * mass;
     }
 }
 

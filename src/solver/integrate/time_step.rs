@@ -17,7 +17,10 @@
 //! [`MAX_FACTOR`] times that.
 
 use crate::math::max;
+use crate::model::links::LinkKind;
+use crate::model::material::Material;
 use crate::solver::collide::relative_motion;
+use crate::solver::stretch::link_projection::is_rigid;
 use crate::solver::world::World;
 use crate::state::settings::BdfScheme;
 
@@ -32,6 +35,13 @@ const STIFFNESS_STEP_DECAY: f32 = 0.9;
 
 /// Shortest substep whose stiffness links take on [s].
 const MIN_STIFFNESS_STEP: f32 = 2.5e-5;
+
+/// Ends of a link that move when it is corrected.
+const LINK_ENDS: f32 = 2.0;
+
+/// Ratio of the stiffness of a fold over a few cells, for which bending is solved well, to
+/// `bend_stiffness` over the fourth power of the edge length.
+const BEND_FACTOR: f32 = 8.0;
 
 /// Sets the number of substeps of the tick that starts.
 pub(crate) fn begin_tick(world: &mut World) {
@@ -91,9 +101,37 @@ impl World {
     /// stiffness, which approaches the new one tick by tick. Substeps below
     /// [`MIN_STIFFNESS_STEP`] count as if they had that length for ever: they would turn the
     /// rounding of positions into velocities.
+    ///
+    /// ```text
+    /// share = (h / H)² = [1 / H²] / [1 / h²]                       H: `stiffness_step`
+    /// compliant: [λ(H) / (1 + λ(H)) / H²] / [λ(h) / (1 + λ(h)) / h²] = (1 + λ(h)) / (1 + λ(H))
+    /// λ(h) = stiffness h² / mass: one correction removes the share λ / (1 + λ) of a strain
+    /// ```
+    /// So soft links, whose stiffness does not depend on h, count in full.
     pub fn correction_share(&self) -> f32 {
-        let ratio = self.regular_scheme().h / max(self.stiffness_step, MIN_STIFFNESS_STEP);
-        ratio * ratio
+        let (h, longest) = self.stiffness_steps();
+        if is_rigid(&self.material, LinkKind::Stretch) {
+            return (h / longest) * (h / longest);
+        }
+        let Material { stretch_stiffness_warp, stretch_stiffness_weft, density, .. } =
+            self.material;
+        let stiffness = max(stretch_stiffness_warp, stretch_stiffness_weft);
+        let rate = LINK_ENDS * stiffness / (density * self.mean_edge * self.mean_edge);
+        (1.0 + rate * h * h) / (1.0 + rate * longest * longest)
+    }
+
+    /// Share of the correction by bending that counts as velocity: as for compliant links.
+    pub fn bending_share(&self) -> f32 {
+        let (h, longest) = self.stiffness_steps();
+        let area = self.mean_edge * self.mean_edge;
+        let rate =
+            BEND_FACTOR * self.material.bend_stiffness / (self.material.density * area * area);
+        (1.0 + rate * h * h) / (1.0 + rate * longest * longest)
+    }
+
+    /// Substep length, and that whose stiffness the corrections have [s].
+    fn stiffness_steps(&self) -> (f32, f32) {
+        (self.regular_scheme().h, max(self.stiffness_step, MIN_STIFFNESS_STEP))
     }
 
     /// Starts a tick: longer substeps make the links softer at once.
