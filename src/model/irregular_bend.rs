@@ -77,6 +77,6 @@ impl IrregularBends {
 
     /// Allocated bytes.
     pub fn bytes(&self) -> usize {
-        8 * size_of::<u32>() * self.a.capacity() + self.coloring.bytes()
+        (5 * size_of::<u32>() + 3 * size_of::<f32>()) * self.a.capacity() + self.coloring.bytes()
     }
 }

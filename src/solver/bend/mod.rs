@@ -27,6 +27,7 @@ pub(crate) mod irregular;
 pub(crate) mod line_factors;
 pub(crate) mod mesh_implicit;
 pub(crate) mod plate;
+pub(crate) mod plate_kernels;
 pub(crate) mod rest_direction;
 pub(crate) mod spectral_bound;
 pub(crate) mod stiffness_matrix;
