@@ -89,7 +89,7 @@ fn solve_elements(world: &mut World, order: SweepOrder) {
     let stiffness =
         world.material.bend_stiffness * scheme.velocity_step * scheme.velocity_step * (1.0 + lag);
     let step = HingeStep { stiffness, start_share: lag / (1.0 + lag) };
-    elastic_corrections::run(world, world.bending_share(), |world| {
+    elastic_corrections::run(world, |world| {
         if world.plate_elements.is_some() {
             solve_plates(world, step, order);
         } else {
@@ -103,6 +103,7 @@ fn solve_elements(world: &mut World, order: SweepOrder) {
 
 /// Bends the elements that tears and cuts took out of the regular layout, in a sweep forward and one
 /// backward, since the elements of one sweep in one direction would add energy.
+#[inline(never)]
 fn solve_off_grid(world: &mut World, step: HingeStep) {
     let has_irregular =
         world.plate_elements.as_ref().is_some_and(|plates| !plates.irregular.groups.is_empty());

@@ -135,8 +135,13 @@ fn gather_forces_lanes(
 
 leveled! {
     /// First Chebyshev step, without a previous displacement.
-    pub(crate) fn first_step(gain: f32, w: &[f32], force: &mut [f32], displacement: &mut [f32], x: &mut [f32])
-        = first_step_lanes
+    pub(crate) fn first_step(
+        gain: f32,
+        w: &[f32],
+        force: &mut [f32],
+        displacement: &mut [f32],
+        x: &mut [f32],
+    ) = first_step_lanes
 }
 
 #[inline(always)]
@@ -186,8 +191,12 @@ fn next_step_lanes(
 
 leveled! {
     /// Computes the weighted second difference of particles `stride` apart.
-    pub(crate) fn compute_line_curvature(x: &[f32], weight: &[f32], curve: &mut [f32], stride: usize)
-        = compute_line_curvature_lanes
+    pub(crate) fn compute_line_curvature(
+        x: &[f32],
+        weight: &[f32],
+        curve: &mut [f32],
+        stride: usize,
+    ) = compute_line_curvature_lanes
 }
 
 #[inline(always)]
@@ -243,8 +252,12 @@ fn subtract_momentum_lanes(force: &mut [f32], displacement: &[f32], mass: &[f32]
 
 leveled! {
     /// Adds displacements to positions and to the total of the substep.
-    pub(crate) fn apply_displacement(x: &mut [f32], displacement: &[f32], total: &mut [f32], is_first: bool)
-        = apply_displacement_lanes
+    pub(crate) fn apply_displacement(
+        x: &mut [f32],
+        displacement: &[f32],
+        total: &mut [f32],
+        is_first: bool,
+    ) = apply_displacement_lanes
 }
 
 #[inline(always)]

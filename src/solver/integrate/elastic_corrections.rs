@@ -18,16 +18,27 @@ use crate::solver::particle_stage::access::ParticleAccess;
 use crate::solver::world::{TickScratch, World};
 use glam::Vec3;
 
-/// Runs a stage of which at least `share` of the corrections counts as velocity.
-pub(crate) fn run(world: &mut World, share: f32, stage: impl FnOnce(&mut World)) {
-    let least = world.correction_share();
+/// Runs bending, of whose corrections at least `World::bending_share` counts as velocity.
+#[inline(always)]
+pub(crate) fn run(world: &mut World, mut bend: impl FnMut(&mut World)) {
+    if world.has_regular_stiffness() {
+        bend(world);
+    } else {
+        run_counted(world, &mut bend);
+    }
+}
+
+/// Runs bending after a jump of the substep length. Never inlined, since it is rare.
+#[inline(never)]
+fn run_counted(world: &mut World, bend: &mut dyn FnMut(&mut World)) {
+    let (share, least) = (world.bending_share(), world.correction_share());
     if share <= least {
-        return stage(world);
+        return bend(world);
     }
     let part = (share - least) / (1.0 - least);
     let mut moved = core::mem::take(&mut world.scratch.relative_wind);
     (0..world.particles.len()).for_each(|i| moved.set(i, position(world, i)));
-    stage(world);
+    bend(world);
     for i in 0..world.particles.len() {
         moved.set(i, (position(world, i) - moved.get(i)) * part);
         world.scratch.predicted.add(i, moved.get(i));

@@ -129,6 +129,12 @@ impl World {
         (1.0 + rate * h * h) / (1.0 + rate * longest * longest)
     }
 
+    /// Whether corrections have the stiffness of the current substep length: all count in full.
+    pub fn has_regular_stiffness(&self) -> bool {
+        let (h, longest) = self.stiffness_steps();
+        longest <= h
+    }
+
     /// Substep length, and that whose stiffness the corrections have [s].
     fn stiffness_steps(&self) -> (f32, f32) {
         (self.regular_scheme().h, max(self.stiffness_step, MIN_STIFFNESS_STEP))
