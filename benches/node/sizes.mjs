@@ -15,7 +15,7 @@ const scripts = (await readdir(dist)).filter((name) => name.endsWith(".js"));
 /** Scripts that only some pages load. */
 const OPTIONAL = [
   ...["bytes.js", "inline.js", "no-wasm.js", "heap.js", "code.js"],
-  ...["three.js", "three-with.js", "pointers.js"],
+  ...["three.js", "three-with.js", "pointers.js", "react.js"],
 ];
 
 /** Name, files, and the arguments of tick.mjs for the build that is timed. */

@@ -8,6 +8,7 @@ use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_finite};
 use crate::geometry::blade::Blade;
 use crate::math::float_env::with_float_env;
+use crate::solver::collide;
 use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::topology::cut;
 use glam::Vec3;
@@ -73,6 +74,7 @@ impl Cloth {
             self.world.rebuild_particle_collision();
             self.world.rebuild_surface_collision();
             let count = self.world.particles.len() as u32;
+            collide::begin_between_ticks(&mut self.world);
             surface_stages::separate_splits(&mut self.world, 0..count);
         });
         self.update_topology();

@@ -231,7 +231,9 @@ impl Cloth {
         };
         self.world.set_origin(fresh.origin);
         core::mem::swap(&mut fresh.colliders, &mut self.world.colliders);
-        fresh.colliders.iter_mut().for_each(|body| body.impulse = Impulse::default());
+        fresh.colliders.iter_mut().for_each(|body| {
+            (body.impulse, body.pending) = (Impulse::default(), Impulse::default());
+        });
         fresh.settings = self.world.settings.clone();
         fresh.substeps = fresh.settings.substeps;
         fresh.material = self.world.material.clone();

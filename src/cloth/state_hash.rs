@@ -77,9 +77,10 @@ impl Cloth {
                 hasher.write_f32s(&pose.position.to_array());
                 hasher.write_f32s(&pose.rotation.to_array());
             }
-            let Impulse { linear, angular } = body.impulse;
-            hasher.write_f32s(&linear.to_array());
-            hasher.write_f32s(&angular.to_array());
+            for Impulse { linear, angular } in [body.impulse, body.pending] {
+                hasher.write_f32s(&linear.to_array());
+                hasher.write_f32s(&angular.to_array());
+            }
         }
         for contact in world.warm_start.iter() {
             hasher.write_u32s(&contact.ids);

@@ -19,7 +19,8 @@
 //! │  ├─ Contacts      colliders: narrow phase and response
 //! │  ├─ Hold          anchors: max distance and backstop
 //! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass and colliders
-//! │  └─ Velocities    v ← (x - x_start) / h by BDF, then velocities of surface contacts
+//! │  └─ Velocities    v ← (x - x_start) / h by BDF, then velocities of surface contacts, then
+//! │                   momentum of a free cloth that hits a collider
 //! ├─ Bend         folds (plasticity)         Colliders  colliders reach their end poses
 //! ├─ Guard        restore particles with invalid numbers
 //! ├─ Tear         split vertices of overstretched links
@@ -39,7 +40,7 @@
 
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{
-    forces, piece_momentum, predict, recover, sleep, time_step, velocities,
+    forces, impact_momentum, piece_momentum, predict, recover, sleep, time_step, velocities,
 };
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::rebase;
@@ -129,13 +130,14 @@ pub(crate) fn tick(world: &mut World) -> bool {
     }
     let is_bounded = world.settings.max_stretch > 0.0;
     if is_bounded || !world.anchors.is_empty() {
-        timed!(world, Colliders, collide::begin_last_phase(world));
+        timed!(world, Colliders, begin_last_phase(world));
         timed!(world, Pairs, surface_stages::begin_tick(world));
         if is_bounded {
             timed!(world, Limit, strain_limit::enforce(world));
         }
         timed!(world, Hold, anchors::project_at_end(world));
         timed!(world, SelfContacts, surface_stages::enforce_non_crossing_at_tick_end(world));
+        timed!(world, SelfContacts, piece_momentum::end_last_phase(world));
         if is_bounded {
             timed!(world, Limit, strain_limit::report(world));
         }
@@ -146,6 +148,12 @@ pub(crate) fn tick(world: &mut World) -> bool {
     world.relax_stiffness_step();
     sleep::update_timer(world);
     true
+}
+
+/// Starts the phase after the last substep.
+fn begin_last_phase(world: &mut World) {
+    collide::begin_last_phase(world);
+    piece_momentum::begin_last_phase(world);
 }
 
 /// Advances time and tick count by one tick.
@@ -185,6 +193,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
     timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, surface_stages::damp_velocities(world));
+    timed!(world, Velocities, impact_momentum::restore(world));
     time_step::end_substep(world);
 }
 

@@ -33,6 +33,7 @@ use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
 use crate::solver::bend::bend_scratch::BendScratch;
 use crate::solver::collide::contact_scratch::ContactScratch;
+use crate::solver::integrate::expected_momentum::ExpectedMomentum;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
 use crate::solver::profile::Profile;
@@ -253,6 +254,12 @@ pub(crate) struct TickScratch {
     /// Piece of each triangle, now and before the last tear or cut, and the particles of each piece.
     /// Written by tears and cuts.
     pub pieces: PieceLabels,
+    /// What the momentum of a free cloth that hits a collider should be at the end of this substep.
+    /// Written by `impact_momentum`.
+    pub expected_momentum: Option<ExpectedMomentum>,
+    /// Whether the cloth touched a collider without moving fast when the last substep ended. Written
+    /// by `piece_momentum`.
+    pub rests_on_collider: bool,
     /// Pieces that touch each other in this substep. Written by `piece_momentum`.
     pub piece_groups: PieceGroups,
     /// Stack of the flood fill that labels the pieces.
@@ -284,6 +291,8 @@ impl TickScratch {
             rollback: RollbackState::with_capacity(capacity),
             opened_edges: Vec::with_capacity(2),
             pieces: PieceLabels::new(capacity, triangles),
+            expected_momentum: None,
+            rests_on_collider: false,
             piece_groups: PieceGroups::with_capacity(capacity, triangles),
             piece_stack: Vec::with_capacity(triangles),
         };
@@ -421,6 +430,7 @@ impl World {
     pub fn reset_history(&mut self) {
         let (h, gravity) = (self.regular_scheme().h, self.gravity_of_history());
         self.particles.reset_history(gravity, h);
+        self.drop_pending_impulses();
         self.has_no_history = false;
     }
 

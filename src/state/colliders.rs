@@ -6,7 +6,7 @@
 use crate::arena::Arena;
 use crate::error::{Result, check, check_finite};
 use crate::geometry::collision_shape::CollisionShape;
-use crate::math::max;
+use crate::math::{max, saturate};
 use crate::state::collider_desc::{ColliderDesc, Shape};
 use crate::state::origin::{is_valid_origin, whole_metres};
 use crate::state::pose::{COLLIDER_FIELDS, Pose, check_pose};
@@ -41,6 +41,30 @@ pub struct Impulse {
     pub angular: Vec3,
 }
 
+impl Impulse {
+    /// Adds an impulse that acts at a point, about the origin of its coordinates [m].
+    pub(crate) fn add_at(&mut self, point: Vec3, linear: Vec3) {
+        self.linear += linear;
+        self.angular += point.cross(linear);
+    }
+
+    /// The same impulse, about a point that is `shift` from the present one [m].
+    pub(crate) fn about(self, shift: Vec3) -> Self {
+        Self { angular: self.angular - shift.cross(self.linear), ..self }
+    }
+
+    /// Adds `factor` times another impulse about the same point.
+    pub(crate) fn add_scaled(&mut self, other: Self, factor: f32) {
+        self.linear += other.linear * factor;
+        self.angular += other.angular * factor;
+    }
+
+    /// The same impulse within the range of f32.
+    pub(crate) fn saturate(self) -> Self {
+        Self { linear: saturate(self.linear), angular: saturate(self.angular) }
+    }
+}
+
 /// One collider of a cloth. Its poses are those of its `center`, relative to the origin of the
 /// cloth, so that coordinates near the cloth are small in both frames:
 ///
@@ -58,6 +82,9 @@ pub(crate) struct ColliderBody {
     pub next: Pose,
     /// Impulse received during the last tick.
     pub impulse: Impulse,
+    /// Impulse that the velocities of the cloth have not taken up yet: the second-order scheme
+    /// (BDF2) spreads it over the next substeps.
+    pub pending: Impulse,
     /// A point in the local frame [m]: that of `ColliderDesc::shape_center`, or a point of a plane
     /// near the origin of the cloth.
     center: Vec3,
@@ -80,6 +107,7 @@ impl ColliderBody {
             last: pose,
             next: pose,
             impulse: Impulse::default(),
+            pending: Impulse::default(),
             center,
             final_pose: pose,
             collision_shape: Some(shape),
@@ -92,8 +120,10 @@ impl ColliderBody {
     /// Validates a collider from a save and builds its shape.
     pub fn restore(&mut self) -> Result<()> {
         self.desc.check()?;
-        check_finite(self.impulse.linear, "collider.impulse")?;
-        check_finite(self.impulse.angular, "collider.impulse")?;
+        for impulse in [self.impulse, self.pending] {
+            check_finite(impulse.linear, "collider.impulse")?;
+            check_finite(impulse.angular, "collider.impulse")?;
+        }
         check(is_valid_origin(self.center), "collider.center", "be in whole metres")?;
         if self.desc.shape != Shape::Plane {
             self.center = self.desc.shape_center();

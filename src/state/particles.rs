@@ -124,6 +124,14 @@ impl Particles {
         self.v_extrapolated.set(i, saturate(v + gravity * (h * (1.0 / 3.0))));
     }
 
+    /// Adds to the velocity of a particle [m/s], and to its history with substeps of `h` [s].
+    #[inline(never)]
+    pub fn add_velocity(&mut self, i: usize, change: Vec3, h: f32) {
+        self.v.add(i, change);
+        self.v_extrapolated.add(i, change);
+        self.displacement.add(i, change * h);
+    }
+
     /// Drops the history of every particle, for a next substep of BDF1. Velocities stay.
     pub fn drop_history(&mut self) {
         self.v_extrapolated.copy_from(&self.v);

@@ -24,6 +24,7 @@ mod colliders;
 mod fast_impacts;
 mod friction_and_contact;
 mod hard_constraints;
+mod impact_momentum;
 mod particle_collision;
 mod rest_with_intersections;
 mod small_and_fast_bodies;

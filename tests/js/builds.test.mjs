@@ -21,10 +21,14 @@ async function run(...words) {
   return JSON.parse(stdout);
 }
 
+/** The entry point of pages; that of Node has its module embedded. */
+const page = new URL("index.js", import.meta.resolve("muslin")).href;
+
 const BUILDS = [
-  ["with SIMD", ["muslin"], "raw_bg.wasm"],
-  ["in an engine without SIMD", ["muslin", "no-simd"], "plain_bg.wasm"],
-  ["with its module embedded", ["muslin/inline"], undefined],
+  ["in Node", ["muslin"], "raw_bg.wasm"],
+  ["in pages, with SIMD", [page], "raw_bg.wasm"],
+  ["in pages, in an engine without SIMD", [page, "no-simd"], "plain_bg.wasm"],
+  ["with its module embedded", ["muslin/inline"], "raw_bg.wasm"],
   ["in an engine without WebAssembly", ["muslin/no-wasm", "no-wasm"], undefined],
 ];
 

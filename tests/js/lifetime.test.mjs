@@ -61,6 +61,7 @@ for (const [what, source] of Object.entries({
 test("initSync takes bytes and modules", async () => {
   await inFreshNode("initSync(bytes); works(); initSync(bytes); await init(); works();");
   await inFreshNode("initSync(new WebAssembly.Module(bytes)); works();");
+  await inFreshNode("initSync(); works();"); // in Node the module is embedded
 });
 
 test("init() called twice, in sequence or concurrently, loads once", () =>
@@ -89,7 +90,8 @@ test("a failed init() says why and can be called again", () =>
     await assert.rejects(init(bytes.subarray(0, 100)), WebAssembly.CompileError);
     await assert.rejects(init(7), /\`source\` must be a URL/);
     await assert.rejects(init({}), /\`source\` must be a URL/);
-    await assert.rejects(init(new URL("nowhere.wasm", ${JSON.stringify(wasm)})), /ENOENT/);
+    await assert.rejects(init(new URL("nowhere.wasm", ${JSON.stringify(wasm)})), /^Error: Muslin cannot read file:.*ENOENT.*: import muslin\\/inline/);
+    await assert.rejects(init("nowhere.wasm"), /^Error: Muslin cannot read nowhere.wasm .*: import muslin\\/inline/);
     await assert.rejects(init(new Response("", { status: 404 })), /\`source\` must be found/);
     assert.throws(() => initSync(empty), /\`source\` must be the raw_bg.wasm/);
     assert.throws(() => initSync("file"), /\`source\` must be bytes/);
@@ -222,4 +224,68 @@ test("creating, tearing and freeing a thousand cloths does not grow the memory",
   const before = memory();
   for (let i = 0; i < 1000; i++) live().free();
   assert.equal(memory(), before);
+});
+
+test("forgotten cloths are counted, and one warning says to free them", async () => {
+  await inNode(`
+    import assert from "node:assert/strict";
+    import init, { Cloth } from "muslin";
+    await init();
+    const warnings = [];
+    console.warn = (text) => warnings.push(text);
+    const make = () => Cloth.grid({ columns: 200, rows: 200 });
+    const { bytes } = make().stats;
+    for (let i = 0; i < 40; i++) make().free();
+    for (let i = 0; i < 30; i++) make();
+    assert.ok(31 * bytes > 2 ** 28, "the cloths are too small for a warning");
+    assert.deepEqual(warnings, [], "freed cloths count, or few cloths are enough");
+    for (let i = 0; i < 3; i++) make();
+    const [warning, ...others] = warnings;
+    assert.match(warning, /^Muslin: 32 cloths hold \\d+ MiB. Call free\\(\\)/);
+    const held = Number(/hold (\\d+) MiB/.exec(warning)[1]);
+    assert.equal(held, Math.round((32 * bytes) / 2 ** 20));
+    assert.deepEqual(others, []);
+  `);
+});
+
+test("cloths and handles work through proxies of them, as Vue makes", async () => {
+  await init();
+  const through = (object) => new Proxy(object, {});
+  const target = Cloth.grid();
+  const cloth = through(target);
+  const twin = Cloth.grid();
+  const play = (cloth, wrap) => {
+    cloth.wind = { velocity: [0, 0, 2] };
+    const collider = wrap(cloth.addCollider({ shape: "sphere", position: [1, -1, 0.6], radius: 0.5 }));
+    const attachment = wrap(cloth.attach([0, 1], [0, 0, 0]));
+    const grab = wrap(cloth.grabParticle(800));
+    cloth.step(10);
+    collider.moveTo([1, -1, 0.4]);
+    attachment.moveTo([0, 0.1, 0], [0, 0, 0, 1]);
+    grab.moveTo([1, -1, 0.5]);
+    cloth.advance(1 / 30);
+    assert.equal(collider.impulse.linear.length, 3);
+    assert.deepEqual([...attachment.particles], [0, 1]);
+    grab.release();
+    attachment.detach();
+    collider.remove();
+    cloth.step(5);
+    return cloth.stateHash();
+  };
+  assert.equal(play(cloth, through), play(twin, (handle) => handle));
+  assert.equal(cloth.positions, target.positions);
+  cloth.free();
+  assert.ok(cloth.isFreed && target.isFreed);
+});
+
+test("methods of another object say which class they belong to", async () => {
+  await init();
+  const cloth = Cloth.grid();
+  const { advance } = cloth;
+  for (const wrong of [undefined, {}]) {
+    assert.throws(() => advance.call(wrong, 1), /`this` must be a Cloth/);
+  }
+  assert.throws(() => cloth.addCollider().remove.call({}), /`this` must be a Collider/);
+  assert.throws(() => cloth.grabParticle(8).release.call({}), /`this` must be a Grab/);
+  assert.equal(cloth.constructor.name, "Cloth");
 });

@@ -75,7 +75,8 @@ test("the package contains every file that it names, and no other", async () => 
   assert.deepEqual([manifest.dependencies, manifest.scripts], [undefined, undefined]);
   for (const license of ["LICENSE-MIT", "LICENSE-APACHE", "README.md"]) assert.ok(files.includes(license), license);
 
-  const targets = Object.values(manifest.exports).flatMap((to) => (typeof to === "string" ? [to] : Object.values(to)));
+  const filesOf = (to) => (typeof to === "string" ? [to] : Object.values(to).flatMap(filesOf));
+  const targets = Object.values(manifest.exports).flatMap(filesOf);
   for (const target of targets) assert.ok(files.includes(target.replace("./", "")), target);
   // Every imported file exists, and every file is imported or exported, except the licences and
   // the README.

@@ -1,9 +1,9 @@
-//! Packs the npm package as users install it, and tests the file from a page, with Vite, with
-//! webpack and in node.
+//! Packs the npm package as users install it, and tests the file from a page, in node, and in
+//! bundlers, frameworks and other runtimes.
 
 use std::path::PathBuf;
 
-use crate::failure::{Failure, Result};
+use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
 use crate::{browser, files, js, npm, setup, shell};
 
@@ -12,8 +12,12 @@ pub fn tarball() -> PathBuf {
     files::root().join("dist").join(format!("muslin-{}.tgz", env!("CARGO_PKG_VERSION")))
 }
 
-/// Builds the package, packs it, and prints the sizes of its parts.
+/// Builds the package, packs it once in a run of the tests, and prints the sizes of its parts.
 pub fn pack() -> Result {
+    files::once_in_run("npm-tarball", write_tarball)
+}
+
+fn write_tarball() -> Result {
     setup::ensure(&[&setup::NODE])?;
     js::build()?;
     let tarball = tarball();
@@ -49,4 +53,35 @@ pub fn test() -> Result {
     let paths =
         [("MUSLIN_WORK", &work), ("MUSLIN_TARBALL", &tarball()), ("MUSLIN_STRICT", &strict)];
     browser::node_test("tests/web/clients.test.mjs", &url, &paths)
+}
+
+/// Installs the packed file beside the frameworks, bundlers and runtimes that the lock file of
+/// `tests/frameworks` lists, builds an app in each, and plays the script there.
+pub fn test_frameworks() -> Result {
+    pack()?;
+    let sources = files::root().join("tests/frameworks");
+    let work = files::target().join("frameworks");
+    files::create_dir(&work)?;
+    for path in files::list(&sources)? {
+        let name = path.file_name().unwrap_or_default();
+        let copy = work.join(name);
+        if path.is_file() {
+            std::fs::copy(&path, &copy).during(|| format!("copying {}", path.display()))?;
+        } else if name != "node_modules" {
+            files::create_empty_dir(&copy)?;
+            files::copy_dir(&path, &copy)?;
+        }
+    }
+    let script = work.join("script.mjs");
+    std::fs::copy(files::root().join("tests/js/script.mjs"), script).during(|| "copying".into())?;
+    npm::install_in(&work)?;
+    let installed = work.join("node_modules/muslin");
+    if installed.exists() {
+        std::fs::remove_dir_all(&installed).during(|| "removing the last package".into())?;
+    }
+    let mut install = shell::command("npm");
+    install.current_dir(&work).args(["install", "--no-save", "--offline", "--ignore-scripts"]);
+    shell::run(install.args(["--no-audit", "--no-fund"]).arg(tarball()))?;
+    let url = Server::open(vec![Mount { at: "/", dir: work.clone() }], 0)?.spawn();
+    browser::node_test("tests/web/frameworks.test.mjs", &url, &[("MUSLIN_WORK", &work)])
 }

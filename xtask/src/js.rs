@@ -35,7 +35,7 @@ fn build_package() -> Result {
             ));
         }
     }
-    tools::minify(&vectors.join("raw_bg.js"), &dir().join("raw.js"), "--minify-whitespace")?;
+    tools::minify(&vectors.join("raw_bg.js"), &dir().join("raw.js"), "--minify")?;
     let code = no_wasm::convert(&small.join("raw_bg.wasm"), &small)?;
     let [vectors, plain] = [vectors, plain].map(|dir| dir.join("raw_bg.wasm"));
     for (from, name) in [(vectors, "raw_bg.wasm"), (plain, "plain_bg.wasm"), (code, "code.js")] {

@@ -49,6 +49,13 @@ pub const NODE: Need = Need {
     is_installed: || which("npm").is_some() && node_version() >= Some((18, 19)),
 };
 
+/// Node and npm in a version that frameworks run in.
+pub const NEW_NODE: Need = Need {
+    name: "node 20.19 or newer with npm",
+    packages: &["nodejs", "npm"],
+    is_installed: || which("npm").is_some() && node_version() >= Some((20, 19)),
+};
+
 /// The emulator of other processors, in a version that emulates AVX2; on Linux only.
 pub const QEMU: Need = Need {
     name: "qemu-user 7.2 or newer",

@@ -148,6 +148,15 @@ pub const STEPS: &[Step] = &[
         run: clients::test,
     },
     Step {
+        name: "frameworks",
+        about: "the npm package in Next, Nuxt, SvelteKit, Vue, React, Vitest, bundlers, Bun, Deno",
+        needs: &[&setup::NEW_NODE, &setup::CHROMIUM],
+        writes: &[],
+        reads: &[NpmPackage],
+        is_default: true,
+        run: clients::test_frameworks,
+    },
+    Step {
         name: "readme",
         about: "every block of code and every command in README.md, CONTRIBUTING.md and docs",
         needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL, &setup::PYTHON],

@@ -18,8 +18,8 @@ pub const FLAGS: &str = "-C target-feature=+simd128 -C llvm-args=--disable-lsr \
                          -C opt-level=2 -C llvm-args=-inline-threshold=50";
 
 /// Compiler flags for engines without vectors.
-pub const PLAIN: &str =
-    "-C target-feature=-simd128 -C opt-level=2 -C llvm-args=-inline-threshold=50";
+pub const PLAIN: &str = "-C target-feature=-simd128 -C llvm-args=--disable-lsr \
+     -C opt-level=2 -C llvm-args=-inline-threshold=50";
 
 /// Compiler flags for the first version of wasm, with bulk memory operations: what wasm2js can
 /// translate. Inlining would make the script larger, not faster.
@@ -43,9 +43,9 @@ pub fn build(package: &str, dir: &Path, name: &str) -> Result {
     write(&mut bindgen, dir, name).during(during)
 }
 
-/// Writes `name_bg.wasm` and `name_bg.js` into `dir`, with traps instead of panics. The script receives the exports of the module
-/// from its caller, so that JavaScript can replace the module; it needs neither reference types nor
-/// multiple results.
+/// Writes `name_bg.wasm` and `name_bg.js` into `dir`, with traps instead of panics. The script receives
+/// the exports of the module from its caller, so that JavaScript can replace the module; it needs
+/// neither reference types nor multiple results.
 pub fn bind(module: &Path, dir: &Path, name: &str) -> Result {
     let during = || format!("binding {}", module.display());
     let mut bytes = traps::from_panics(&std::fs::read(module).during(during)?)?;

@@ -63,7 +63,9 @@ export class Cloth {
 
   /**
    * Frees the memory of the cloth at once. Calling it again has no effect. A cloth that you do not
-   * free is freed some time after its last reference is gone.
+   * free is freed some time after its last reference is gone and the page has yielded; a loop that
+   * never yields runs out of memory. The console gets one warning when 32 cloths or more hold 256
+   * MiB.
    */
   free(): void;
   /** The same as `free()`, for `using cloth = Cloth.grid()`. */

@@ -14,9 +14,11 @@ import {
   toVector,
 } from "./check.js";
 import { isTrap, requireMemory } from "./memory.js";
+import { setState, stateOf } from "./state.js";
+import { countCloth, discountCloth } from "./usage.js";
 import * as fields from "./fields.js";
 import { Attachment, Collider, CONSTRUCTOR_KEY, Grab, checkConstructorKey, packPose } from "./handles.js";
-import { readChanges, readEvents, readHit, readMeshReport, readStats } from "./reports.js";
+import { readBytes, readChanges, readEvents, readHit, readMeshReport, readStats } from "./reports.js";
 import { writeIndices, writeVertices } from "./write.js";
 
 const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
@@ -45,13 +47,31 @@ function makeCloth(build) {
   }
 }
 
-export class Cloth {
-  #raw;
-  #views = {};
+/** Returns the RawCloth. Throws if the cloth was freed. */
+function rawOf(cloth) {
+  const { live } = stateOf(cloth, "Cloth");
+  check(live, "cloth", "be live, but was freed");
+  return live;
+}
 
-  constructor(key, raw) {
+/**
+ * Returns a view of the module's memory: the last one if memory, address and length are still the
+ * same.
+ */
+function viewOf(cloth, name, Kind, address, length) {
+  const { views } = stateOf(cloth, "Cloth");
+  const { buffer } = requireMemory(); // read here: the call that returned `address` may have grown the memory
+  const last = views[name];
+  const fits = last?.buffer === buffer && last.byteOffset === address && last.length === length;
+  return fits ? last : (views[name] = new Kind(buffer, address, length));
+}
+
+export class Cloth {
+  constructor(key, live) {
     checkConstructorKey(key, "a cloth is made by Cloth.grid(), Cloth.mesh() or Cloth.restore()");
-    this.#raw = raw;
+    const state = { live, views: {} };
+    setState(this, state);
+    countCloth(this, state, readBytes(live.stats()));
   }
 
   static grid(desc = {}) {
@@ -80,312 +100,296 @@ export class Cloth {
     return makeCloth(() => raw.RawCloth.restore(saved));
   }
 
-  /** The RawCloth. Throws if the cloth was freed. */
-  get #live() {
-    check(this.#raw, "cloth", "be live, but was freed");
-    return this.#raw;
-  }
-
   free() {
-    this.#raw?.free();
-    this.#raw = undefined;
-    this.#views = {};
+    const state = stateOf(this, "Cloth");
+    state.live?.free();
+    [state.live, state.views] = [undefined, {}];
+    discountCloth(state);
   }
 
   get isFreed() {
-    return this.#raw === undefined;
+    return stateOf(this, "Cloth").live === undefined;
   }
 
   // Time
 
   advance(seconds) {
-    return this.#live.advance(toNumber(seconds, "seconds"));
+    return rawOf(this).advance(toNumber(seconds, "seconds"));
   }
 
   step(ticks = 1) {
-    this.#live.step(toUint32(ticks, "ticks"));
+    rawOf(this).step(toUint32(ticks, "ticks"));
   }
 
   reset() {
-    this.#live.reset();
+    rawOf(this).reset();
   }
 
   get time() {
-    return this.#live.time();
+    return rawOf(this).time();
   }
 
   get blend() {
-    return this.#live.blend();
+    return rawOf(this).blend();
   }
 
   get timing() {
-    return this.#live.is_timed();
+    return rawOf(this).is_timed();
   }
 
   set timing(timing) {
-    this.#live.set_timed(toBoolean(timing, "timing"));
+    rawOf(this).set_timed(toBoolean(timing, "timing"));
   }
 
   // Settings, material, wind
 
   get settings() {
-    return fields.unpack(fields.SETTINGS, this.#live.settings());
+    return fields.unpack(fields.SETTINGS, rawOf(this).settings());
   }
 
   set settings(settings) {
-    const live = this.#live;
+    const live = rawOf(this);
     live.set_settings(fields.merge(fields.SETTINGS, live.settings(), settings, "settings"));
   }
 
   get material() {
-    return fields.unpack(fields.MATERIAL, this.#live.material());
+    return fields.unpack(fields.MATERIAL, rawOf(this).material());
   }
 
   set material(material) {
-    const live = this.#live;
+    const live = rawOf(this);
     live.set_material(fields.mergeMaterial(live.material(), material, raw.preset_material));
   }
 
   get wind() {
-    return fields.unpack(fields.WIND, this.#live.wind());
+    return fields.unpack(fields.WIND, rawOf(this).wind());
   }
 
   set wind(wind) {
-    const live = this.#live;
+    const live = rawOf(this);
     live.set_wind(fields.merge(fields.WIND, live.wind(), wind, "wind"));
   }
 
   // Views
 
   get positions() {
-    const live = this.#live;
-    return this.#view("positions", Float32Array, live.positions_ptr(), 3 * live.vertex_count());
+    const live = rawOf(this);
+    return viewOf(this, "positions", Float32Array, live.positions_ptr(), 3 * live.vertex_count());
   }
 
   get relativePositions() {
-    const live = this.#live;
-    return this.#view("relative", Float32Array, live.relative_positions_ptr(), 3 * live.vertex_count());
+    const live = rawOf(this);
+    return viewOf(this, "relative", Float32Array, live.relative_positions_ptr(), 3 * live.vertex_count());
   }
 
   get origin() {
-    return Array.from(this.#live.origin());
+    return Array.from(rawOf(this).origin());
   }
 
   get normals() {
-    const live = this.#live;
-    return this.#view("normals", Float32Array, live.normals_ptr(), 3 * live.vertex_count());
+    const live = rawOf(this);
+    return viewOf(this, "normals", Float32Array, live.normals_ptr(), 3 * live.vertex_count());
   }
 
   get uvs() {
-    const live = this.#live;
-    return this.#view("uvs", Float32Array, live.uvs_ptr(), 2 * live.vertex_count());
+    const live = rawOf(this);
+    return viewOf(this, "uvs", Float32Array, live.uvs_ptr(), 2 * live.vertex_count());
   }
 
   get indices() {
-    const live = this.#live;
-    return this.#view("indices", Uint32Array, live.indices_ptr(), live.index_count());
+    const live = rawOf(this);
+    return viewOf(this, "indices", Uint32Array, live.indices_ptr(), live.index_count());
   }
 
   get sourceVertices() {
-    const live = this.#live;
-    return this.#view("sources", Uint32Array, live.source_vertices_ptr(), live.vertex_count());
+    const live = rawOf(this);
+    return viewOf(this, "sources", Uint32Array, live.source_vertices_ptr(), live.vertex_count());
   }
 
   get frayed() {
-    const live = this.#live;
-    return this.#view("frayed", Uint8Array, live.frayed_ptr(), live.vertex_count());
+    const live = rawOf(this);
+    return viewOf(this, "frayed", Uint8Array, live.frayed_ptr(), live.vertex_count());
   }
 
   get vertexParticles() {
-    const live = this.#live;
-    return this.#view("particles", Uint32Array, live.vertex_particles_ptr(), live.vertex_count());
+    const live = rawOf(this);
+    return viewOf(this, "particles", Uint32Array, live.vertex_particles_ptr(), live.vertex_count());
   }
 
   get meshReport() {
-    return readMeshReport(this.#live.mesh_report());
+    return readMeshReport(rawOf(this).mesh_report());
   }
 
   changes(sinceTopologyRevision) {
     const since = toUint32(sinceTopologyRevision, "sinceTopologyRevision");
-    return readChanges(this.#live.changes(since));
+    return readChanges(rawOf(this).changes(since));
   }
 
   // Writing to buffers of the caller
 
   writeVertices(streams, desc = {}) {
-    return writeVertices(this.#live, streams, desc);
+    return writeVertices(rawOf(this), streams, desc);
   }
 
   writeIndices(buffer, options = {}) {
-    return writeIndices(this.#live, buffer, options);
-  }
-
-  /**
-   * Returns a view of the module's memory: the last one if memory, address and length are still the
-   * same.
-   */
-  #view(name, Kind, address, length) {
-    const { buffer } = requireMemory(); // read here: the call that returned `address` may have grown the memory
-    const last = this.#views[name];
-    const fits = last?.buffer === buffer && last.byteOffset === address && last.length === length;
-    return fits ? last : (this.#views[name] = new Kind(buffer, address, length));
+    return writeIndices(rawOf(this), buffer, options);
   }
 
   get vertexCapacity() {
-    return this.#live.vertex_capacity();
+    return rawOf(this).vertex_capacity();
   }
 
   get indexCapacity() {
-    return this.#live.index_capacity();
+    return rawOf(this).index_capacity();
   }
 
   get topologyRevision() {
-    return this.#live.topology_revision();
+    return rawOf(this).topology_revision();
   }
 
   get stateRevision() {
-    return this.#live.state_revision();
+    return rawOf(this).state_revision();
   }
 
   // Particles
 
   position(particle) {
-    return Array.from(this.#live.position(toUint32(particle, "particle")));
+    return Array.from(rawOf(this).position(toUint32(particle, "particle")));
   }
 
   velocity(particle) {
-    return Array.from(this.#live.velocity(toUint32(particle, "particle")));
+    return Array.from(rawOf(this).velocity(toUint32(particle, "particle")));
   }
 
   mass(particle) {
-    return this.#live.mass(toUint32(particle, "particle"));
+    return rawOf(this).mass(toUint32(particle, "particle"));
   }
 
   setPosition(particle, position) {
-    this.#live.set_position(toUint32(particle, "particle"), ...toVector(position, "position"));
+    rawOf(this).set_position(toUint32(particle, "particle"), ...toVector(position, "position"));
   }
 
   setVelocity(particle, velocity) {
-    this.#live.set_velocity(toUint32(particle, "particle"), ...toVector(velocity, "velocity"));
+    rawOf(this).set_velocity(toUint32(particle, "particle"), ...toVector(velocity, "velocity"));
   }
 
   // Pins
 
   get pinned() {
-    return this.#live.pinned();
+    return rawOf(this).pinned();
   }
 
   pin(particle, target) {
-    const live = this.#live;
+    const live = rawOf(this);
     toUint32(particle, "particle");
     if (target === undefined) live.pin_here(particle);
     else live.pin_at(particle, ...toVector(target, "target"));
   }
 
   unpin(particle) {
-    this.#live.unpin(toUint32(particle, "particle"));
+    rawOf(this).unpin(toUint32(particle, "particle"));
   }
 
   unpinAll() {
-    this.#live.unpin_all();
+    rawOf(this).unpin_all();
   }
 
   setPinTargets(particles, targets) {
-    const live = this.#live;
+    const live = rawOf(this);
     live.set_pin_targets(toUint32Array(particles, "particles"), toFloat32Array(targets, "targets", 3));
   }
 
   setPinStiffness(particles, stiffness) {
-    const live = this.#live;
+    const live = rawOf(this);
     live.set_pin_stiffness(toUint32Array(particles, "particles"), toNumber(stiffness, "stiffness"));
   }
 
   setMassScales(particles, scales) {
-    this.#live.set_mass_scales(toUint32Array(particles, "particles"), toFloat32Array(scales, "scales", 1));
+    rawOf(this).set_mass_scales(toUint32Array(particles, "particles"), toFloat32Array(scales, "scales", 1));
   }
 
   // Attachments, anchors, frame
 
   attach(particles, position, rotation = IDENTITY) {
-    const live = this.#live;
+    const live = rawOf(this);
     const handle = live.attach(toUint32Array(particles, "particles"), packPose(position, rotation));
-    return new Attachment(CONSTRUCTOR_KEY, () => this.#live, handle, Array.from(rotation));
+    return new Attachment(CONSTRUCTOR_KEY, () => rawOf(this), handle, Array.from(rotation));
   }
 
   setMaxDistances(particles, distances) {
-    const live = this.#live;
+    const live = rawOf(this);
     live.set_max_distances(toUint32Array(particles, "particles"), toFloat32Array(distances, "distances", 1));
   }
 
   setBackstops(particles, distances, radii) {
-    const live = this.#live;
+    const live = rawOf(this);
     const lengths = [toFloat32Array(distances, "distances", 1), toFloat32Array(radii, "radii", 1)];
     live.set_backstops(toUint32Array(particles, "particles"), ...lengths);
   }
 
   setAnchors(particles, positions, normals = []) {
-    const live = this.#live;
+    const live = rawOf(this);
     const vectors = [toFloat32Array(positions, "positions", 3), toFloat32Array(normals, "normals", 3)];
     live.set_anchors(toUint32Array(particles, "particles"), ...vectors);
   }
 
   clearLeashes() {
-    this.#live.clear_leashes();
+    rawOf(this).clear_leashes();
   }
 
   setFrame(position, rotation = IDENTITY) {
-    this.#live.set_frame(packPose(position, rotation));
+    rawOf(this).set_frame(packPose(position, rotation));
   }
 
   teleport(position, rotation = IDENTITY) {
-    this.#live.teleport(packPose(position, rotation));
+    rawOf(this).teleport(packPose(position, rotation));
   }
 
   moveFrame(position, rotation = IDENTITY, inertia = 0) {
-    this.#live.move_frame(packPose(position, rotation), toNumber(inertia, "inertia"));
+    rawOf(this).move_frame(packPose(position, rotation), toNumber(inertia, "inertia"));
   }
 
   // Ray casts, grabs, cuts, creases and tears
 
   raycast(origin, direction, maxDistance = Infinity) {
-    const live = this.#live;
+    const live = rawOf(this);
     return readHit(live.raycast(packRay(origin, direction), toNumber(maxDistance, "maxDistance")));
   }
 
   grabRay(origin, direction, options = {}) {
-    const live = this.#live;
+    const live = rawOf(this);
     const { radius = 0 } = checkKeys(options, "options", ["radius"]);
     const held = live.grab_ray(packRay(origin, direction), toNumber(radius, "radius"));
-    return held.length === 0 ? undefined : new Grab(CONSTRUCTOR_KEY, () => this.#live, held[0], held.subarray(1));
+    return held.length === 0 ? undefined : new Grab(CONSTRUCTOR_KEY, () => rawOf(this), held[0], held.subarray(1));
   }
 
   grabParticle(particle) {
-    const grab = this.#live.grab_particle(toUint32(particle, "particle"));
+    const grab = rawOf(this).grab_particle(toUint32(particle, "particle"));
     const at = this.positions.subarray(3 * particle, 3 * particle + 3);
-    return new Grab(CONSTRUCTOR_KEY, () => this.#live, grab, at);
+    return new Grab(CONSTRUCTOR_KEY, () => rawOf(this), grab, at);
   }
 
   cut(from, to, sweep) {
-    const live = this.#live;
+    const live = rawOf(this);
     const blade = [toVector(from, "from"), toVector(to, "to"), toVector(sweep, "sweep")];
     return live.cut(Float64Array.from(blade.flat()));
   }
 
   crease(from, to, angle) {
-    const live = this.#live;
+    const live = rawOf(this);
     const line = [toVector(from, "from"), toVector(to, "to")];
     live.crease(Float64Array.from(line.flat()), toNumber(angle, "angle"));
   }
 
   tearEdge(particleA, particleB) {
-    const live = this.#live;
+    const live = rawOf(this);
     return live.tear_edge(toUint32(particleA, "particleA"), toUint32(particleB, "particleB"));
   }
 
   // Colliders
 
   addCollider(collider = {}) {
-    const live = this.#live;
+    const live = rawOf(this);
     checkKeys(collider, "collider", COLLIDER_KEYS);
     const desc = fields.pack(fields.COLLIDER, raw.default_collider(), collider, "collider");
     const positions = toFloat32Array(collider.positions ?? [], "collider.positions", 3);
@@ -393,26 +397,26 @@ export class Cloth {
     const heights = toFloat32Array(collider.heights ?? [], "collider.heights", 1);
     const { rotation } = fields.unpack(fields.COLLIDER, desc);
     const handle = live.add_collider(desc, positions, indices, heights);
-    return new Collider(CONSTRUCTOR_KEY, () => this.#live, handle, rotation);
+    return new Collider(CONSTRUCTOR_KEY, () => rawOf(this), handle, rotation);
   }
 
   // Events, statistics, saved states
 
   events() {
-    return readEvents(this.#live.events());
+    return readEvents(rawOf(this).events());
   }
 
   get stats() {
-    return readStats(this.#live.stats(), raw.stage_names());
+    return readStats(rawOf(this).stats(), raw.stage_names());
   }
 
   stateHash() {
-    const [low, high] = this.#live.state_hash();
+    const [low, high] = rawOf(this).state_hash();
     return (BigInt(high) << 32n) | BigInt(low);
   }
 
   save() {
-    return this.#live.save();
+    return rawOf(this).save();
   }
 }
 

@@ -2,6 +2,7 @@
 // returns the cloth's RawCloth, or throws if the cloth was freed.
 
 import { toVector } from "./check.js";
+import { setState, stateOf } from "./state.js";
 
 /** Passed to constructors by this package only, so that nobody else can construct these classes. */
 export const CONSTRUCTOR_KEY = Symbol("made by muslin");
@@ -22,88 +23,89 @@ function rotationOf(pose) {
   return Array.from(pose.subarray(3));
 }
 
-export class Grab {
-  #live;
-  #handle;
+/** Returns the state and the handle of an object, and its RawCloth. Throws if the cloth was freed. */
+function liveStateOf(object, kind) {
+  const state = stateOf(object, kind);
+  return { state, live: state.live(), handle: state.handle };
+}
 
+export class Grab {
   constructor(key, live, handle, position) {
     checkConstructorKey(key, "a grab is made by cloth.grabRay() or cloth.grabParticle()");
-    this.#live = live;
-    this.#handle = handle;
+    setState(this, { live, handle });
     this.position = Object.freeze(Array.from(position));
     Object.freeze(this);
   }
 
   moveTo(target) {
-    this.#live().move_grab(this.#handle, ...toVector(target, "target"));
+    const { live, handle } = liveStateOf(this, "Grab");
+    live.move_grab(handle, ...toVector(target, "target"));
   }
 
   release() {
-    this.#live().release(this.#handle);
+    const { live, handle } = liveStateOf(this, "Grab");
+    live.release(handle);
   }
 }
 
-export class Attachment {
-  #live;
-  #handle;
-  #rotation;
+/** Returns position and rotation as a flat list; without `rotation`, that of the last pose. */
+function nextPose(state, position, rotation = state.rotation) {
+  return packPose(position, rotation);
+}
 
+export class Attachment {
   constructor(key, live, handle, rotation) {
     checkConstructorKey(key, "an attachment is made by cloth.attach()");
-    this.#live = live;
-    this.#handle = handle;
-    this.#rotation = rotation;
+    setState(this, { live, handle, rotation });
   }
 
   get particles() {
-    return this.#live().attached(this.#handle);
+    const { live, handle } = liveStateOf(this, "Attachment");
+    return live.attached(handle);
   }
 
-  moveTo(position, rotation = this.#rotation) {
-    const live = this.#live();
-    const pose = packPose(position, rotation);
-    live.move_attachment(this.#handle, pose);
-    this.#rotation = rotationOf(pose);
+  moveTo(position, rotation) {
+    const { state, live, handle } = liveStateOf(this, "Attachment");
+    const pose = nextPose(state, position, rotation);
+    live.move_attachment(handle, pose);
+    state.rotation = rotationOf(pose);
   }
 
   detach() {
-    this.#live().detach(this.#handle);
+    const { live, handle } = liveStateOf(this, "Attachment");
+    live.detach(handle);
   }
 }
 
 export class Collider {
-  #live;
-  #handle;
-  #rotation;
-
   constructor(key, live, handle, rotation) {
     checkConstructorKey(key, "a collider is made by cloth.addCollider()");
-    this.#live = live;
-    this.#handle = handle;
-    this.#rotation = rotation;
+    setState(this, { live, handle, rotation });
   }
 
-  moveTo(position, rotation = this.#rotation) {
-    const live = this.#live();
-    const pose = packPose(position, rotation);
-    live.move_collider(this.#handle, pose);
-    this.#rotation = rotationOf(pose);
+  moveTo(position, rotation) {
+    const { state, live, handle } = liveStateOf(this, "Collider");
+    const pose = nextPose(state, position, rotation);
+    live.move_collider(handle, pose);
+    state.rotation = rotationOf(pose);
   }
 
-  teleport(position, rotation = this.#rotation) {
-    const live = this.#live();
-    const pose = packPose(position, rotation);
-    live.teleport_collider(this.#handle, pose);
-    this.#rotation = rotationOf(pose);
+  teleport(position, rotation) {
+    const { state, live, handle } = liveStateOf(this, "Collider");
+    const pose = nextPose(state, position, rotation);
+    live.teleport_collider(handle, pose);
+    state.rotation = rotationOf(pose);
   }
 
   get impulse() {
-    const list = Array.from(this.#live().collider_impulse(this.#handle));
+    const { live, handle } = liveStateOf(this, "Collider");
+    const list = Array.from(live.collider_impulse(handle));
     const vectorAt = (start) => Object.freeze(list.slice(start, start + 3));
     return Object.freeze({ linear: vectorAt(0), angular: vectorAt(3) });
   }
 
   remove() {
-    this.#live().remove_collider(this.#handle);
+    const { live, handle } = liveStateOf(this, "Collider");
+    live.remove_collider(handle);
   }
 }

@@ -49,8 +49,9 @@ export type Source =
  * Loads the WebAssembly module. Await it once, before you create a cloth.
  *
  * Without `source` it loads the file beside this script: `raw_bg.wasm`, or `plain_bg.wasm` in
- * engines without SIMD. Vite and webpack bundle both by themselves; if your bundler does not, pass
- * the address of the file, or use `muslin/inline`.
+ * engines without SIMD. Vite, webpack, Parcel, Next, Nuxt and SvelteKit bundle both by themselves;
+ * if your bundler does not, use `muslin/inline`, or pass the address of the file. In Node, Bun and
+ * Deno the module is embedded, as in `muslin/inline`.
  *
  * Further calls, also concurrent ones, wait for the same module and ignore their `source`. After a
  * failure you can call it again.
@@ -71,7 +72,8 @@ export default function init(source?: Source | Promise<Source>): Promise<void>;
 
 /**
  * Loads the WebAssembly module synchronously, from bytes or a compiled module. Use it in workers
- * and in Node: browsers compile only small modules synchronously on their main thread.
+ * and in Node: browsers compile only small modules synchronously on their main thread. In Node, Bun
+ * and Deno `source` may be left out at run time; its type asks for it because pages need it.
  *
  * @throws if it is not the module of this package, or if `init()` has not finished yet
  */

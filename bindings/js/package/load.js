@@ -1,37 +1,25 @@
 // Loading of the WebAssembly module: once, however often and wherever init() is called.
 
 import { check, isBytes } from "./check.js";
+import { readFileUrl } from "./file.js";
 import { IMPORTS, isLoaded, setInstance } from "./memory.js";
-
-/** A module of one function that returns a v128: it is valid only in engines with SIMD. */
-const SIMD_MODULE = [
-  ...[0x00, 0x61, 0x73, 0x6d, 0x01, 0x00, 0x00, 0x00], // magic, version
-  ...[0x01, 0x05, 0x01, 0x60, 0x00, 0x01, 0x7b], // type: () -> v128
-  ...[0x03, 0x02, 0x01, 0x00], // function 0 has that type
-  ...[0x0a, 0x08, 0x01, 0x06, 0x00, 0x41, 0x00, 0xfd, 0x0f, 0x0b], // i32.const 0, i8x16.splat
-];
-
-/**
- * The folder in which Vite's development server puts the bundled scripts of packages, without their
- * wasm modules. The server also serves the package itself, where it is installed.
- */
-const VITE_DEPS = /\/node_modules\/\.vite\/deps\/(?=[^/]*$)/;
 
 const SOURCE_RULE = "be a URL, Request, Response, bytes or WebAssembly.Module";
 
-const ADVICE = "give init() the address of raw_bg.wasm, or import muslin/inline, which has it inside";
+/** What to do where the module cannot be loaded. */
+export const ADVICE = "import muslin/inline, which has the module inside, or pass the address of raw_bg.wasm to init()";
 
 let loading;
 
-/** Loads the module; see index.d.ts. */
-export default async function init(source) {
+/** Loads the module from `source`, or from what `fallback` returns. */
+export async function load(source, fallback) {
   if (isLoaded()) return;
-  loading ??= load(source).finally(() => (loading = undefined));
+  loading ??= compileAndStart(source, fallback).finally(() => (loading = undefined));
   await loading;
 }
 
 /** Loads the module synchronously; see index.d.ts. */
-export function initSync(source) {
+export function loadSync(source) {
   if (isLoaded()) return;
   if (loading) throw new Error("init() is under way: await it instead of calling initSync()");
   const isModule = source instanceof WebAssembly.Module;
@@ -40,8 +28,8 @@ export function initSync(source) {
   useInstance(new WebAssembly.Instance(module, IMPORTS));
 }
 
-async function load(source) {
-  const module = checkModule(await compile(await (source ?? defaultUrl())));
+async function compileAndStart(source, fallback) {
+  const module = checkModule(await compile(await (source ?? fallback())));
   useInstance(await WebAssembly.instantiate(module, IMPORTS));
 }
 
@@ -49,27 +37,31 @@ function useInstance({ exports }) {
   setInstance(exports, WebAssembly.RuntimeError);
 }
 
-/**
- * Returns the address of the module beside this file that the engine can run. Bundlers look for
- * exactly this form of `new URL`, so both are written out.
- */
-function defaultUrl() {
-  const hasSimd = WebAssembly.validate(new Uint8Array(SIMD_MODULE));
-  const [simd, plain] = [new URL("raw_bg.wasm", import.meta.url), new URL("plain_bg.wasm", import.meta.url)];
-  const { href } = hasSimd ? simd : plain;
-  return new URL(href.replace(VITE_DEPS, "/node_modules/muslin/"));
-}
-
 async function compile(source) {
   if (source instanceof WebAssembly.Module) return source;
-  if (isBytes(source)) return WebAssembly.compile(source);
-  const isAddress = source instanceof URL || typeof source === "string";
-  // Compiled synchronously: in Node 20, WebAssembly.compile() may never settle if V8 collects
-  // garbage meanwhile.
-  if (isAddress && String(source).startsWith("file:")) return new WebAssembly.Module(await readFileUrl(source));
+  if (isBytes(source)) return compileBytes(source);
   if (source instanceof Response) return compileResponse(source);
-  check(isAddress || source instanceof Request, "source", SOURCE_RULE);
-  return compileResponse(await fetch(source));
+  if (source instanceof Request) return compileResponse(await fetch(source));
+  check(source instanceof URL || typeof source === "string", "source", SOURCE_RULE);
+  const read = await readAddress(`${source}`);
+  return isBytes(read) ? compileBytes(read) : compileResponse(read);
+}
+
+/**
+ * Compiles bytes, in Node synchronously: there, in version 20, WebAssembly.compile() may never
+ * settle if V8 collects garbage meanwhile.
+ */
+function compileBytes(bytes) {
+  return globalThis.process?.versions?.node ? new WebAssembly.Module(bytes) : WebAssembly.compile(bytes);
+}
+
+/** Returns the bytes of a file URL, or the response to any other address. */
+async function readAddress(address) {
+  try {
+    return await (address.startsWith("file:") ? readFileUrl(address) : fetch(address));
+  } catch (error) {
+    throw new Error(`Muslin cannot read ${address} (${error.message}): ${ADVICE}`, { cause: error });
+  }
 }
 
 async function compileResponse(response) {
@@ -77,19 +69,9 @@ async function compileResponse(response) {
   // A server without such a file may answer with its front page and status 200.
   const isFound = response.ok && !type.startsWith("text/html");
   const answer = response.ok ? "is a page" : `answered ${response.status}`;
-  check(isFound, "source", `be found, but ${response.url || "it"} ${answer}; ${ADVICE}`);
+  check(isFound, "source", `be found, but ${response.url || "it"} ${answer}: ${ADVICE}`);
   if (type.startsWith("application/wasm")) return WebAssembly.compileStreaming(response);
-  return WebAssembly.compile(await response.arrayBuffer());
-}
-
-/**
- * Reads a file URL in Node, whose fetch() does not. The module's name is in a variable so that
- * bundlers for browsers do not look for it.
- */
-async function readFileUrl(url) {
-  const name = "node:fs/promises";
-  const { readFile } = await import(/* @vite-ignore */ /* webpackIgnore: true */ name);
-  return readFile(new URL(url));
+  return compileBytes(await response.arrayBuffer());
 }
 
 /**

@@ -88,6 +88,11 @@ export function readHit(list) {
   return { triangle, particle, u, v, distance, position: rest.slice(0, 3), normal: rest.slice(3) };
 }
 
+/** Returns the memory of the cloth [B] from its statistics. */
+export function readBytes(stats) {
+  return stats[STATS.indexOf("bytes")];
+}
+
 export function readStats(list, stageNames) {
   const stats = Object.fromEntries(STATS.map((name, index) => [name, list[index]]));
   const seconds = stageNames.split(" ").map((name, index) => [name, list[STATS.length + index]]);

@@ -2,6 +2,7 @@
 // passes in, release 159 or newer, loaded from any address.
 
 import { Pointers } from "./pointers.js";
+import { setState, stateOf } from "./state.js";
 
 /**
  * Copies a part of a view into an attribute and marks it for upload. Grows the pending range to
@@ -35,15 +36,16 @@ function makeClothGeometry({ Box3, BufferAttribute, BufferGeometry, DynamicDrawU
     return attribute;
   }
 
-  return class ClothGeometry extends BufferGeometry {
-    #cloth;
-    #vertexCount = 0;
-    #topology = 0;
-    #state;
+  /** Returns the positions that are in use; the rest of the attribute is spare capacity. */
+  function usedPositions(geometry) {
+    const { vertexCount } = stateOf(geometry, "ClothGeometry");
+    return geometry.attributes.position.array.subarray(0, 3 * vertexCount);
+  }
 
+  return class ClothGeometry extends BufferGeometry {
     constructor(cloth) {
       super();
-      this.#cloth = cloth;
+      setState(this, { cloth, vertexCount: 0, topology: 0, revision: undefined });
       const capacity = cloth.vertexCapacity;
       this.setAttribute("position", makeAttribute(capacity, Float32Array, 3));
       this.setAttribute("normal", makeAttribute(capacity, Float32Array, 3));
@@ -53,17 +55,18 @@ function makeClothGeometry({ Box3, BufferAttribute, BufferGeometry, DynamicDrawU
     }
 
     get cloth() {
-      return this.#cloth;
+      return stateOf(this, "ClothGeometry").cloth;
     }
 
     update() {
-      const cloth = this.#cloth;
+      const state = stateOf(this, "ClothGeometry");
+      const { cloth } = state;
       const { topologyRevision, stateRevision } = cloth;
-      const hasNewTopology = topologyRevision !== this.#topology;
-      const hasChanged = hasNewTopology || stateRevision !== this.#state;
+      const hasNewTopology = topologyRevision !== state.topology;
+      const hasChanged = hasNewTopology || stateRevision !== state.revision;
       if (hasNewTopology) {
         const { indices } = cloth;
-        const changes = cloth.changes(this.#topology);
+        const changes = cloth.changes(state.topology);
         upload(this.index, indices, changes.firstIndex, changes.indexCount);
         upload(this.attributes.uv, cloth.uvs, 2 * changes.firstVertex, 2 * changes.vertexCount);
         this.setDrawRange(0, indices.length);
@@ -72,28 +75,23 @@ function makeClothGeometry({ Box3, BufferAttribute, BufferGeometry, DynamicDrawU
         const { positions } = cloth;
         upload(this.attributes.position, positions);
         upload(this.attributes.normal, cloth.normals);
-        this.#vertexCount = positions.length / 3;
+        state.vertexCount = positions.length / 3;
         this.computeBoundingSphere();
         if (this.boundingBox) this.computeBoundingBox();
       }
-      this.#topology = topologyRevision;
-      this.#state = stateRevision;
+      state.topology = topologyRevision;
+      state.revision = stateRevision;
       return hasChanged;
-    }
-
-    /** Returns the positions that are in use; the rest of the attribute is spare capacity. */
-    #usedPositions() {
-      return this.attributes.position.array.subarray(0, 3 * this.#vertexCount);
     }
 
     computeBoundingBox() {
       this.boundingBox ??= new Box3();
-      this.boundingBox.setFromArray(this.#usedPositions());
+      this.boundingBox.setFromArray(usedPositions(this));
     }
 
     computeBoundingSphere() {
       this.boundingSphere ??= new Sphere();
-      const used = this.#usedPositions();
+      const used = usedPositions(this);
       const { center } = this.boundingSphere;
       box.setFromArray(used).getCenter(center);
       let farthest = 0;
@@ -114,74 +112,72 @@ function makeClothGeometry({ Box3, BufferAttribute, BufferGeometry, DynamicDrawU
 function makeClothPointers({ Matrix4, Raycaster, Vector2, Vector3 }) {
   const [caster, ndc, facing, toCloth] = [new Raycaster(), new Vector2(), new Vector3(), new Matrix4()];
 
+  /**
+   * Returns the ray under a pointer in the space of the cloth, which is the local space of its
+   * mesh.
+   */
+  function rayOf({ mesh, camera, element }, { clientX, clientY }) {
+    const { left, top, width, height } = element.getBoundingClientRect();
+    ndc.set((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
+    caster.setFromCamera(ndc, camera);
+    mesh.updateWorldMatrix(true, false);
+    toCloth.copy(mesh.matrixWorld).invert();
+    const { origin, direction } = caster.ray.applyMatrix4(toCloth);
+    return [origin.toArray(), direction.toArray()];
+  }
+
+  function press(parts, event) {
+    const { pointers, camera, element } = parts;
+    const ray = rayOf(parts, event);
+    camera.getWorldDirection(facing).transformDirection(toCloth);
+    if (!pointers.press(event.pointerId, ...ray, facing.toArray())) return;
+    element.setPointerCapture(event.pointerId);
+    event.stopImmediatePropagation();
+  }
+
+  function drag(parts, event) {
+    const { pointers } = parts;
+    if (pointers.holds(event.pointerId)) pointers.drag(event.pointerId, ...rayOf(parts, event));
+  }
+
   return class ClothPointers {
-    #pointers;
-    #mesh;
-    #camera;
-    #element;
-    #listening = new AbortController();
     enabled = true;
 
     constructor(mesh, camera, element, options) {
-      this.#pointers = new Pointers(mesh.geometry.cloth, options);
-      [this.#mesh, this.#camera, this.#element] = [mesh, camera, element];
+      const pointers = new Pointers(mesh.geometry.cloth, options);
+      const listening = new AbortController();
+      const parts = { pointers, mesh, camera, element, listening };
+      setState(this, parts);
       element.style.touchAction = "none"; // or the browser takes the gesture for its own
-      const { signal } = this.#listening;
+      const { signal } = listening;
       // In the capturing phase: camera controls listen in a later phase, so a press that grabs the
       // cloth can be kept from them.
       const on = (type, listener) => element.addEventListener(type, listener, { capture: true, signal });
-      on("pointerdown", (event) => this.#press(event));
-      on("pointermove", (event) => this.#drag(event));
+      on("pointerdown", (event) => this.enabled && event.button === 0 && press(parts, event));
+      on("pointermove", (event) => drag(parts, event));
       for (const type of ["pointerup", "pointercancel", "lostpointercapture"]) {
-        on(type, (event) => this.#pointers.lift(event.pointerId));
+        on(type, (event) => pointers.lift(event.pointerId));
       }
     }
 
     /** Returns the number of pointers that hold the cloth. */
     get size() {
-      return this.#pointers.size;
+      return stateOf(this, "ClothPointers").pointers.size;
     }
 
     meets(event) {
-      return this.#pointers.cloth.raycast(...this.#ray(event)) !== undefined;
+      const parts = stateOf(this, "ClothPointers");
+      return parts.pointers.cloth.raycast(...rayOf(parts, event)) !== undefined;
     }
 
     liftAll() {
-      this.#pointers.liftAll();
+      stateOf(this, "ClothPointers").pointers.liftAll();
     }
 
     dispose() {
-      this.#listening.abort();
-      if (!this.#pointers.cloth.isFreed) this.liftAll();
-    }
-
-    #press(event) {
-      if (!this.enabled || event.button !== 0) return;
-      const ray = this.#ray(event);
-      this.#camera.getWorldDirection(facing).transformDirection(toCloth);
-      if (!this.#pointers.press(event.pointerId, ...ray, facing.toArray())) return;
-      this.#element.setPointerCapture(event.pointerId);
-      event.stopImmediatePropagation();
-    }
-
-    #drag(event) {
-      if (!this.#pointers.holds(event.pointerId)) return;
-      this.#pointers.drag(event.pointerId, ...this.#ray(event));
-      event.stopImmediatePropagation();
-    }
-
-    /**
-     * Returns the ray under a pointer in the space of the cloth, which is the local space of its
-     * mesh.
-     */
-    #ray({ clientX, clientY }) {
-      const { left, top, width, height } = this.#element.getBoundingClientRect();
-      ndc.set((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
-      caster.setFromCamera(ndc, this.#camera);
-      this.#mesh.updateWorldMatrix(true, false);
-      toCloth.copy(this.#mesh.matrixWorld).invert();
-      const { origin, direction } = caster.ray.applyMatrix4(toCloth);
-      return [origin.toArray(), direction.toArray()];
+      const { pointers, listening } = stateOf(this, "ClothPointers");
+      listening.abort();
+      if (!pointers.cloth.isFreed) pointers.liftAll();
     }
   };
 }

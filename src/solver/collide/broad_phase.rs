@@ -87,10 +87,12 @@ pub(crate) fn refresh(world: &mut World) {
     refresh_long_triangles(world);
 }
 
-/// Measures the edges of triangles if their list is not current.
+/// Measures the edges of triangles if their list is not current. In fast motion, and once there are
+/// long triangles, links stretch far within a tick, so it is current for one substep only.
 fn refresh_long_triangles(world: &mut World) {
     let contacts = &mut world.scratch.contacts;
-    if contacts.long.is_current() {
+    let is_fast = world.substeps > world.settings.substeps;
+    if contacts.long.is_current() && !is_fast && contacts.long.list().is_empty() {
         return;
     }
     let x = &world.particles.x;

@@ -32,6 +32,14 @@ pub(crate) struct ContactScratch {
     pub projected: Vec<u32>,
     /// The impulse on each live collider in this tick, about the world origin.
     pub impulses: Vec<Impulse>,
+    /// The impulse of all colliders that the velocities of the cloth took up in this substep, about
+    /// the world origin.
+    pub arrived: Impulse,
+    /// The collider that the largest part of it came from, among the live ones.
+    pub first_pusher: usize,
+    /// For each live collider, what later stages of this substep pushed out of it: mass times
+    /// displacement [kg m], and its moment about the world origin [kg m²].
+    pub(super) late_pushes: Vec<Impulse>,
     /// A lower bound of the distance of each particle from one collider, over its path in this
     /// substep [m].
     pub(super) clearance: Vec<f32>,
@@ -51,6 +59,19 @@ impl ContactScratch {
         &self.projections
     }
 
+    /// Adds to the angular impulse on the cloth, as if it came from the collider that pushed it most
+    /// in this substep.
+    pub fn add_torque(&mut self, torque: Vec3) {
+        if let Some(impulse) = self.impulses.get_mut(self.first_pusher) {
+            impulse.angular -= torque;
+        }
+    }
+
+    /// Forgets the pushes of later stages, for those that give no velocity.
+    pub fn forget_late_pushes(&mut self) {
+        self.late_pushes.fill(Impulse::default());
+    }
+
     /// Allocates for `bodies` colliders and a cloth of at most `particles` particles and
     /// `triangles` triangles.
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
@@ -62,6 +83,7 @@ impl ContactScratch {
         self.projections.reserve_total(particles);
         self.projected.reserve_total(particles);
         self.impulses.reserve_total(bodies);
+        self.late_pushes.reserve_total(bodies);
         self.clearance.reserve_total(particles);
         self.pushes.reserve(particles);
         self.close_pairs.reserve(triangles);

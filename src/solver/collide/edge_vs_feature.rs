@@ -31,8 +31,11 @@ const CONE_TOLERANCE: f32 = 1.0e-3;
 /// Edges at a smaller angle than this to an edge feature (its sine squared) have no contact normal.
 const MIN_SINE2: f32 = 1.0e-4;
 
+/// Cloth is fast if it moves farther than this many gaps in a substep.
+const FAST_GAPS: f32 = 4.0;
+
 /// Pairs that are farther apart than this many gaps before the first round are not tested.
-const CLOSE_GAPS: f32 = 4.0;
+pub(super) const CLOSE_GAPS: f32 = 4.0;
 
 /// The data that all pairs of one collider share in a substep.
 #[derive(Clone, Copy)]
@@ -48,6 +51,13 @@ pub(super) struct FeatureQuery<'a> {
 }
 
 impl FeatureQuery<'_> {
+    /// Returns whether corners of the cloth moved far in this substep. Cloth that hardly moves would
+    /// not come to rest by the rules for cloth that turns or slides.
+    fn is_fast<const COUNT: usize>(&self, start: [Vec3; COUNT], end: [Vec3; COUNT]) -> bool {
+        let far = self.gap * FAST_GAPS;
+        start.iter().zip(end).any(|(start, end)| start.distance_squared(end) > far * far)
+    }
+
     /// Returns whether there are no pairs.
     pub fn is_empty(&self) -> bool {
         self.edges.is_empty() && self.vertices.is_empty()
@@ -140,20 +150,19 @@ fn edge_contact(
     let center_depth = query.shape.depth_of_center(edge.ends[0], normal);
     let most = min(center_depth, query.max_depth);
     let (fraction, penetration) = if height > -most {
-        let is_two_sided = edge.sides == FeatureSides::TwoSided;
-        if is_two_sided && !start.iter().all(|x| edge.is_outside(*x)) {
-            return None;
-        }
         let fraction = edge_crossing(edge, end, normal)?;
         let from = start[0] + (start[1] - start[0]) * fraction;
         let start_height = (from - edge.ends[0]).dot(normal);
-        // An edge that has turned fast was not below the plane that it is below now.
-        let start_height = match outward_normal(edge, start) {
-            Some(own) if start_height < -query.gap => {
-                max((start[0] - edge.ends[0]).dot(own), start_height)
-            }
-            _ => start_height,
-        };
+        let is_fast = query.is_fast(start, end);
+        let own = outward_normal(edge, start).map(|own| StartPlane {
+            height: (start[0] - edge.ends[0]).dot(own),
+            is_beside: is_fast && edge_crossing(edge, start, own).is_none(),
+        });
+        let is_outside = |x: &Vec3| edge.is_outside(*x);
+        if edge.sides == FeatureSides::TwoSided && !was_outside(own, start.iter().map(is_outside)) {
+            return None;
+        }
+        let start_height = corrected_start_height(start_height, query.gap, is_fast, own);
         if edge.sides == FeatureSides::Boundary && start_height <= 0.0 {
             return None;
         }
@@ -173,6 +182,35 @@ fn edge_contact(
     };
     let weights = [1.0 - fraction, fraction, 0.0];
     Some(([i, j, i], TriangleContact { weights, penetration }))
+}
+
+/// A cloth edge or triangle at the start of the substep, as a feature of the collider sees it along
+/// the normal that it had then.
+#[derive(Clone, Copy)]
+struct StartPlane {
+    /// Of the cloth above the feature [m].
+    height: f32,
+    /// Whether it moves fast and lay beside the feature.
+    is_beside: bool,
+}
+
+/// Returns whether cloth started on the outer side of a two-sided feature, from its plane and from
+/// whether each of its corners was in front of a face of the feature. Corners of a long triangle may
+/// be behind them all, where the surface bends away.
+fn was_outside(own: Option<StartPlane>, mut corners: impl Iterator<Item = bool>) -> bool {
+    own.is_some_and(|own| own.height > 0.0) || corners.all(|is_outside| is_outside)
+}
+
+/// Returns the height at which a point of the cloth started, given that height along the normal of
+/// now. Cloth that has turned was not below the plane that it is below now, and cloth that slid here
+/// from beside the feature was not below it either.
+fn corrected_start_height(height: f32, gap: f32, is_fast: bool, own: Option<StartPlane>) -> f32 {
+    match own {
+        Some(own) if height < -gap || is_fast && height < 0.0 => {
+            max(height, if own.is_beside { max(own.height, 0.0) } else { own.height })
+        }
+        _ => height,
+    }
 }
 
 /// Returns the normal perpendicular to an edge feature and a cloth edge, and the height of the
@@ -226,21 +264,23 @@ fn vertex_contact(
     let center_depth = query.shape.depth_of_center(vertex.position, normal);
     let most = min(center_depth, query.max_depth);
     let contact = if height > -most {
-        let is_two_sided = vertex.sides == FeatureSides::TwoSided;
-        if is_two_sided && !start.iter().all(|x| features.is_outside_vertex(vertex, *x)) {
-            return None;
-        }
         let weights = projected_weights(end, vertex.position, normal)?;
         let start_height = (interpolate(start, weights) - vertex.position).dot(normal);
-        // A triangle that has turned fast was not below the plane that it is below now.
         let [p, q, r] = start.map(|x| x - vertex.position);
         let own = (q - p).cross(r - p);
         let length = own.length().copysign(own.dot(vertex.outward));
-        let start_height = if start_height < -query.gap && length.abs() > TINY {
-            max(p.dot(own) / length, start_height)
-        } else {
-            start_height
-        };
+        let is_fast = query.is_fast(start, end);
+        let own = (length.abs() > TINY).then(|| {
+            let own = own * (1.0 / length);
+            let is_beside = is_fast && projected_weights(start, vertex.position, own).is_none();
+            StartPlane { height: p.dot(own), is_beside }
+        });
+        let is_outside = |x: &Vec3| features.is_outside_vertex(vertex, *x);
+        if vertex.sides == FeatureSides::TwoSided && !was_outside(own, start.iter().map(is_outside))
+        {
+            return None;
+        }
+        let start_height = corrected_start_height(start_height, query.gap, is_fast, own);
         let depenetration = particles.depenetration;
         let gap = query.gap;
         let penetration = depenetration.penetration(normal, gap, start_height, height)?;

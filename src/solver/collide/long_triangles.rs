@@ -4,8 +4,8 @@
 //! up to some length of their edges: the longest free edge of the collider. Cloth that is stretched
 //! beyond it, and the longest edges of an irregular mesh, are tested as triangles.
 //!
-//! Edges are measured in the first substep of a tick, and again whenever a collider has pushed a
-//! particle far.
+//! Edges are measured in the first substep of a tick, in each substep of a tick with added substeps
+//! or long triangles, and whenever a collider has pushed a particle far.
 //!
 //! Reads positions and the mesh; writes the list.
 //! Invariant: the list depends only on the positions at these times and on the colliders.

@@ -40,8 +40,8 @@ mod triangle_vs_round;
 
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::transform::Transform;
+use crate::math::max;
 use crate::math::wide4::{Float4, xyz};
-use crate::math::{max, saturate};
 use crate::solver::collide::contact_distance::{TRIANGLE_GAP, contact_gap};
 use crate::solver::collide::edge_vs_feature::FeatureQuery;
 use crate::solver::collide::local_particles::{ContactMaterial, Depenetration, LocalParticles};
@@ -55,6 +55,9 @@ use glam::Vec3;
 /// Rounds per substep that push triangles out of a shape: the smallest number while any triangle
 /// penetrates, and the largest number while one is too deep.
 const TRIANGLE_ROUNDS: [u32; 2] = [2, 40];
+
+/// The largest number of times that the pairs of one collider are searched in a substep.
+const MAX_SEARCHES: u32 = 4;
 
 /// The largest number of rounds that roll triangles back.
 const MAX_ROLLBACK_ROUNDS: u32 = 16;
@@ -92,6 +95,7 @@ pub(crate) fn begin_tick(world: &mut World) {
     let scratch = &mut world.scratch.contacts;
     scratch.collider_contacts.clear();
     scratch.long.invalidate();
+    scratch.first_pusher = 0;
     scratch.impulses.clear();
     scratch.impulses.extend(world.colliders.iter().map(|_| Impulse::default()));
     broad_phase::update_swept_bounds(world);
@@ -102,9 +106,8 @@ pub(crate) fn begin_tick(world: &mut World) {
 pub(crate) fn finish_tick(world: &mut World) {
     for (body, impulse) in world.colliders.iter_mut().zip(&world.scratch.contacts.impulses) {
         body.finish_tick();
-        let Impulse { linear, angular } = *impulse;
-        let angular = angular - body.position().cross(linear);
-        body.impulse = Impulse { linear: saturate(linear), angular: saturate(angular) };
+        body.impulse = impulse.about(body.position()).saturate();
+        body.pending = body.pending.saturate();
     }
 }
 
@@ -114,6 +117,13 @@ pub(crate) fn finish_tick(world: &mut World) {
 pub(crate) fn begin_last_phase(world: &mut World) {
     world.scratch.predicted.copy_from(&world.particles.x);
     world.scratch.displacement.fill(Vec3::ZERO);
+}
+
+/// Prepares colliders for stages that run between two ticks: colliders may have come or gone since
+/// the last one, and paths of particles start at the current positions.
+pub(crate) fn begin_between_ticks(world: &mut World) {
+    begin_tick(world);
+    begin_last_phase(world);
 }
 
 /// What a projection pushes out of colliders, without friction and restitution.
@@ -165,7 +175,7 @@ pub(crate) fn project_out_in_substep(
     if world.scratch.contacts.impulses.is_empty() {
         return;
     }
-    let substeps = world.substeps;
+    let (substeps, max_step) = (world.substeps, MAX_DEPENETRATION_SPEED * world.regular_scheme().h);
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
@@ -178,29 +188,41 @@ pub(crate) fn project_out_in_substep(
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     let x = &mut world.particles.x;
+    // At the start of the substep some are nearer than the gap, and rise by a step.
+    let least = if starts.is_some() { max_step * 1.01 } else { MIN_PROJECTION };
     contacts.projections.retain(|projection| {
-        let is_deep = projection.correction.length_squared() > MIN_PROJECTION * MIN_PROJECTION;
+        let is_deep = projection.correction.length_squared() > least * least;
         if !is_deep {
             x.add(projection.particle as usize, -projection.correction);
         }
         is_deep
     });
     pushed.extend(contacts.projections.iter().map(|projection| projection.particle));
-    let Some(starts) = starts else { return };
     for projection in &contacts.projections {
-        let Some(body) = world.colliders.iter().nth(projection.body as usize) else { continue };
-        let [from, to] = substep_frames(body, substep, substeps);
-        let start = xyz(&starts[projection.particle as usize]);
-        let carried =
-            if from == to { start } else { to.point_to_world(from.point_to_local(start)) };
-        world.particles.x.set(projection.particle as usize, carried);
+        let i = projection.particle as usize;
+        let (mut end, mut push) = (world.particles.x.get(i), projection.correction);
+        let body = world.colliders.iter().nth(projection.body as usize);
+        if let (Some(starts), Some(body)) = (starts, body) {
+            let [from, to] = substep_frames(body, substep, substeps);
+            let start = xyz(&starts[i]);
+            let carried =
+                if from == to { start } else { to.point_to_world(from.point_to_local(start)) };
+            push += carried - end;
+            end = carried;
+            world.particles.x.set(i, end);
+        }
+        let pushes = &mut contacts.late_pushes[projection.body as usize];
+        pushes.add_at(end, push * world.particles.mass[i]);
     }
 }
 
 /// Pushes free particles, edges and triangles out of every collider in its pose at the end of this
 /// substep.
 pub(crate) fn solve(world: &mut World, substep: u32) {
-    world.scratch.contacts.collider_contacts.clear();
+    let contacts = &mut world.scratch.contacts;
+    contacts.collider_contacts.clear();
+    contacts.late_pushes.clear();
+    contacts.late_pushes.resize(contacts.impulses.len(), Impulse::default());
     let substeps = world.substeps;
     solve_colliders(world, &|body| substep_frames(body, substep, substeps), None);
 }
@@ -303,19 +325,35 @@ fn solve_colliders(
                 FeatureQuery { edges: &pairs.edges, vertices: &pairs.vertices, ..features };
             let (positions, close_pairs) =
                 (&mut contacts.local_positions, &mut contacts.close_pairs);
-            positions.clear();
-            if !(features.is_empty() && long_features.is_empty()) {
-                positions.extend((0..particles.w.len()).map(|i| particles.end_position(i)));
+            if features.is_empty() && long_features.is_empty() {
+                continue;
             }
-            edge_vs_feature::collect_close_pairs(&features, positions, close_pairs);
-            edge_vs_feature::collect_close_pairs(&long_features, positions, &mut pairs.close);
-            solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &|particles, pushes| {
-                pushes.reset(particles.w.len());
-                let sharp = edge_vs_feature::push(&features, particles, close_pairs, pushes);
-                let smooth = edge_vs_feature::push(&long_features, particles, &pairs.close, pushes);
-                pushes.apply(particles);
-                max(sharp, smooth)
-            });
+            // Rounds that push far may bring other pairs close.
+            for _ in 0..MAX_SEARCHES {
+                positions.clear();
+                positions.extend((0..particles.w.len()).map(|i| particles.end_position(i)));
+                edge_vs_feature::collect_close_pairs(&features, positions, close_pairs);
+                edge_vs_feature::collect_close_pairs(&long_features, positions, &mut pairs.close);
+                let pushed = solve_rounds(
+                    shape,
+                    &mut particles,
+                    &neighbours,
+                    gap,
+                    pushes,
+                    &|particles, pushes| {
+                        pushes.reset(particles.w.len());
+                        let sharp =
+                            edge_vs_feature::push(&features, particles, close_pairs, pushes);
+                        let smooth =
+                            edge_vs_feature::push(&long_features, particles, &pairs.close, pushes);
+                        pushes.apply(particles);
+                        max(sharp, smooth)
+                    },
+                );
+                if pushed <= triangle_gap * (edge_vs_feature::CLOSE_GAPS - 1.0) {
+                    break;
+                }
+            }
         } else if !(neighbours.triangle_blocks.is_empty() && long.is_empty()) {
             solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &|particles, pushes| {
                 triangle_vs_round::solve(
@@ -335,6 +373,8 @@ fn solve_colliders(
 /// Calls `push`, which pushes triangles out and returns the largest depth [m], until none is too
 /// deep. After each round the corners that it moved are pushed out as particles.
 ///
+/// Returns the sum of these depths over all rounds [m].
+///
 /// If that does not end, the corners of triangles that are still too deep go back to where the
 /// substep began, as the collider carries it along: there no triangle penetrated.
 fn solve_rounds(
@@ -344,19 +384,21 @@ fn solve_rounds(
     gap: f32,
     pushes: &mut PushAccumulator,
     push: &dyn Fn(&mut LocalParticles<'_>, &mut PushAccumulator) -> f32,
-) {
+) -> f32 {
+    let mut pushed = 0.0;
     for round in 1..=TRIANGLE_ROUNDS[1] {
         let deepest = push(particles, pushes);
         if deepest == 0.0 {
-            return;
+            return pushed;
         }
+        pushed += deepest;
         // A push of a triangle may push its corners into the shape elsewhere.
         for i in pushes.pushed() {
             let candidates = &neighbours.candidates;
             particle_vs_shape::solve_particle(shape, particles, candidates, *i as usize);
         }
         if round >= TRIANGLE_ROUNDS[0] && deepest <= gap * ROUND_TOLERANCE {
-            return;
+            return pushed;
         }
     }
     pushes.set_rollback(Some(particles.depenetration.max_step + gap * ROUND_TOLERANCE));
@@ -367,6 +409,7 @@ fn solve_rounds(
         }
     }
     pushes.set_rollback(None);
+    pushed
 }
 
 /// Returns the frames of a collider at the start and at the end of a substep.

@@ -7,8 +7,11 @@
 //! the ticks of a cloth at rest.
 
 pub(crate) mod elastic_corrections;
+pub(crate) mod expected_momentum;
 pub(crate) mod forces;
+pub(crate) mod impact_momentum;
 pub(crate) mod momentum;
+pub(crate) mod momentum_sums;
 pub(crate) mod piece_momentum;
 pub(crate) mod predict;
 pub(crate) mod recover;

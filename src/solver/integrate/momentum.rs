@@ -38,7 +38,8 @@ use crate::math::simd::leveled;
 use crate::math::wide4::Float4;
 use crate::solver::bend;
 use crate::solver::collide::collider_contact::ColliderContact;
-use crate::solver::integrate::rigid_motion::{Component, FreeParticles, Pivot, RigidMotion};
+use crate::solver::integrate::momentum_sums::FreeParticles;
+use crate::solver::integrate::rigid_motion::{Component, Pivot, RigidMotion};
 use crate::solver::particle_stage::interleaved;
 use crate::solver::world::World;
 use crate::state::colliders::Impulse;
@@ -305,7 +306,7 @@ pub(crate) fn remove_rigid_motion_since(
 /// The support of a cloth of one piece that pins and grabs do not hold; `None` for other cloth, and
 /// for cloth whose collider contacts have several directions.
 pub(crate) fn find_support(world: &World) -> Option<Support> {
-    if world.pieces != 1 || is_held(world) {
+    if world.pieces != 1 || world.is_held() {
         return None;
     }
     let contacts = &world.scratch.contacts.collider_contacts;
@@ -315,9 +316,11 @@ pub(crate) fn find_support(world: &World) -> Option<Support> {
     contacts.iter().all(is_on_floor).then_some(Support::Floor(first.normal))
 }
 
-/// Whether a pin or a grab holds a particle.
-fn is_held(world: &World) -> bool {
-    world.pins.has_soft() || world.particles.w.iter().any(|w| *w <= 0.0)
+impl World {
+    /// Whether a pin or a grab holds a particle.
+    pub(super) fn is_held(&self) -> bool {
+        self.pins.has_soft() || self.particles.w.iter().any(|w| *w <= 0.0)
+    }
 }
 
 /// Fills `relative_wind` with the positions that velocities count from: predicted − displacement +

@@ -15,15 +15,18 @@
 //! Invariant: sums run over the particles in ascending order, so the bits depend neither on the SIMD
 //! level nor on how the pieces came about.
 
+use crate::math::columns::Columns;
+use crate::solver::integrate::impact_momentum::{self, IMPACT};
 use crate::solver::integrate::momentum::{
     self, MAX_FIXED, compute_angular_errors, compute_corrections, fixed_particles,
     has_collider_impulse, may_add_spin, pivot,
 };
+use crate::solver::integrate::momentum_sums::PointSums;
 use crate::solver::integrate::rigid_motion::{Pivot, RigidMotion};
 use crate::solver::self_collide::particle_contacts;
 use crate::solver::world::World;
 use crate::state::pins::Pin;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// Before particle collision: removes the momentum that internal stages added to each piece since
 /// prediction, and joins the pieces that will exchange momentum.
@@ -44,6 +47,59 @@ pub(crate) fn remove_internal_momentum(world: &mut World) {
         remove_from_groups(world);
     } else {
         remove_from_pieces(world, Rounding::Exact);
+    }
+}
+
+/// Starts the phase after the last substep: stores the velocities. `collide::begin_last_phase` stores
+/// the positions.
+pub(crate) fn begin_last_phase(world: &mut World) {
+    world.scratch.correction.copy_from(&world.particles.v);
+    world.scratch.rests_on_collider = impact_momentum::rests(world);
+}
+
+/// Ends the phase after the last substep: gives each free piece the momentum and the angular momentum
+/// back that it had before. Hard constraints move particles without a force, and what a collider
+/// gave to a few particles belongs to the whole piece. Where colliders push the centre of mass off its
+/// path, the angular momentum about it stays, and they get the rest as an angular impulse.
+pub(crate) fn end_last_phase(world: &mut World) {
+    if world.pins.has_soft() || !world.anchors.is_empty() {
+        return;
+    }
+    let h = world.regular_scheme().h;
+    let is_pushed = has_collider_impulse(world);
+    let (p, scratch) = (&mut world.particles, &world.scratch);
+    let (x, v) = (&scratch.predicted, &scratch.correction);
+    if p.x == *x && p.v == *v {
+        return;
+    }
+    let mut torques = DVec3::ZERO;
+    let pushes: f32 = world.colliders.iter().map(|body| body.impulse.linear.length()).sum();
+    let pull = world.settings.gravity.length() * world.settings.tick;
+    for piece in scratch.pieces.members.iter() {
+        let particles = || piece.iter().map(|i| *i as usize);
+        if particles().any(|i| p.w[i] <= 0.0) {
+            continue;
+        }
+        let sums = |x: &Columns, v: &Columns| PointSums::of_columns(piece, x, v, &p.mass);
+        let (mut before, now) = (sums(x, v), sums(&p.x, &p.v));
+        if scratch.rests_on_collider && pushes <= IMPACT * before.mass as f32 * pull {
+            // Cloth that rests is pushed a little in every tick; that must not turn it.
+            before = sums(&p.x, v);
+        }
+        if is_pushed {
+            let shift = now.mean_position() - before.mean_position();
+            let torque = shift.cross(before.momentum);
+            before.spin += torque;
+            torques += torque;
+        }
+        let motion = RigidMotion::between(&before, &now, (piece, &p.x, &p.mass));
+        for i in particles() {
+            p.add_velocity(i, motion.displacement_at(p.x.get(i)), h);
+        }
+    }
+    let pusher = scratch.contacts.first_pusher;
+    if let Some(body) = world.colliders.iter_mut().nth(pusher) {
+        body.impulse.angular -= torques.as_vec3();
     }
 }
 
@@ -110,8 +166,12 @@ fn remove_from(
     let free = || all().filter(|i| p.w[*i] > 0.0);
     if is_pushed {
         if count == 0 && may_add_spin(world) {
-            let points = || free().map(|i| (velocity_origin(world, i), correction(i), p.mass[i]));
-            let motion = RigidMotion::of_points(points);
+            let scheme = world.scheme();
+            let share = scheme.old_weight / scheme.new_weight;
+            let motion = RigidMotion::of_points(&|add| {
+                free()
+                    .for_each(|i| add(velocity_origin(world, i, share), correction(i), p.mass[i]));
+            });
             subtract(world, particles, rounding, |world, i| {
                 motion.displacement_at(world.particles.x.get(i))
             });
@@ -124,8 +184,11 @@ fn remove_from(
         Pivot::Point(_) | Pivot::Axis(..) => Vec3::ZERO,
     };
     let (middles, errors) = (&scratch.relative_wind, &scratch.correction);
-    let points = || free().map(|i| (middles.get(i), errors.get(i), p.mass[i]));
-    let motion = RigidMotion::of_points_about(points, pivot).with_translation(translation);
+    let motion = RigidMotion::of_points_about(
+        &|add| free().for_each(|i| add(middles.get(i), errors.get(i), p.mass[i])),
+        pivot,
+    )
+    .with_translation(translation);
     subtract(world, particles, rounding, |world, i| {
         motion.displacement_at(world.scratch.relative_wind.get(i))
     });
@@ -137,10 +200,10 @@ fn has_soft_pin(world: &World, particles: &[u32]) -> bool {
 }
 
 /// The position that the velocity of a particle counts from: predicted − displacement + last
-/// displacement · (old weight / new weight) [m].
-fn velocity_origin(world: &World, i: usize) -> Vec3 {
-    let (scheme, scratch) = (world.scheme(), &world.scratch);
-    let last = world.particles.displacement.get(i) * (scheme.old_weight / scheme.new_weight);
+/// displacement · `share` [m], where `share` is old weight / new weight.
+fn velocity_origin(world: &World, i: usize, share: f32) -> Vec3 {
+    let scratch = &world.scratch;
+    let last = world.particles.displacement.get(i) * share;
     scratch.predicted.get(i) - scratch.displacement.get(i) + last
 }
 

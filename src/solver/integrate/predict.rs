@@ -19,8 +19,10 @@
     allow(dead_code)
 )]
 
+use crate::math::columns::Columns;
 use crate::math::simd::{Scalar, Simd, leveled, vectored};
-use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
+use crate::solver::integrate::momentum_sums::FreeParticles;
+use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::stretch::tethers::project_into_sphere;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::settings::BdfScheme;
@@ -134,7 +136,9 @@ fn clamp_displacement_of_pieces(world: &mut World, max_length: f32) {
     let displacement = &mut scratch.displacement;
     for piece in scratch.pieces.members.iter() {
         let free = || piece.iter().map(|i| *i as usize).filter(|i| p.w[*i] > 0.0);
-        let rigid = RigidMotion::fit(free, &p.x, |i| displacement.get(i), &p.mass);
+        let fit =
+            |displacement: &Columns| RigidMotion::fit(free, &p.x, |i| displacement.get(i), &p.mass);
+        let rigid = fit(displacement);
         let mut is_clamped = false;
         for i in free() {
             let common = rigid.displacement_at(p.x.get(i));
@@ -146,7 +150,7 @@ fn clamp_displacement_of_pieces(world: &mut World, max_length: f32) {
             }
         }
         if is_clamped && piece.iter().all(|i| p.w[*i as usize] > 0.0) {
-            let clamped = RigidMotion::fit(free, &p.x, |i| displacement.get(i), &p.mass);
+            let clamped = fit(displacement);
             for i in free() {
                 let x = p.x.get(i);
                 displacement.add(i, rigid.displacement_at(x) - clamped.displacement_at(x));

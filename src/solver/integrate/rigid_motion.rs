@@ -9,13 +9,15 @@
 //! damping of Müller et al., "Position based dynamics", 2007, sec. 3.5.
 //!
 //! Reads positions, displacements and masses; writes nothing.
-//! Invariant: the sums use eight lanes in a fixed order, so the bits do not depend on the SIMD
-//! level.
+//! Invariant: the bits do not depend on the SIMD level.
 
 use crate::math::columns::Columns;
-use crate::math::simd::{Float, LANES, LaneArray, Level, Scalar, Simd, vectored};
+use crate::math::simd::{Level, Simd};
 use crate::math::trig::{cos, sin};
-use glam::{Mat3, Vec3};
+use crate::solver::integrate::momentum_sums::{
+    FreeParticles, LinearSums, PointSums, Points, spin_and_inertia,
+};
+use glam::{DVec3, Mat3, Vec3};
 
 /// A rigid displacement: translation [m] and small rotation vector [rad] about `center` [m].
 #[derive(Clone, Copy, Debug)]
@@ -34,57 +36,57 @@ impl RigidMotion {
         displacement: impl Fn(usize) -> Vec3,
         mass: &[f32],
     ) -> Self {
-        Self::of_points(|| particles().map(|i| (x.get(i), displacement(i), mass[i])))
+        Self::of_points(&|add| {
+            particles().for_each(|i| add(x.get(i), displacement(i), mass[i]));
+        })
     }
 
-    /// As `fit`, for points given as position, displacement and mass.
-    pub fn of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(points: impl Fn() -> I) -> Self {
-        let fitted = Self::translation_of_points(&points);
-        let (spin, inertia) = fitted.spin_and_inertia_of_points(points());
+    /// As `fit`, for points.
+    pub fn of_points(points: Points<'_>) -> Self {
+        let fitted = PointSums::of(points).translation();
+        let (spin, inertia) = fitted.spin_and_inertia_of_points(points);
         Self { rotation: solve(&inertia, spin), ..fitted }
     }
 
-    /// As `about`, for points given as position, displacement and mass.
-    pub fn of_points_about<I: Iterator<Item = (Vec3, Vec3, f32)>>(
-        points: impl Fn() -> I,
-        pivot: Pivot,
-    ) -> Self {
+    /// As `about`, for points.
+    pub fn of_points_about(points: Points<'_>, pivot: Pivot) -> Self {
         let fitted = match pivot {
-            Pivot::Nothing => Self::translation_of_points(&points),
+            Pivot::Nothing => PointSums::of(points).translation(),
             Pivot::Point(center) | Pivot::Axis(center, _) => {
                 Self { center, translation: Vec3::ZERO, rotation: Vec3::ZERO }
             }
         };
-        let (spin, inertia) = fitted.spin_and_inertia_of_points(points());
+        let (spin, inertia) = fitted.spin_and_inertia_of_points(points);
         Self { rotation: pivot.rotation(inertia, spin), ..fitted }
+    }
+
+    /// The rigid motion that gives the particles of a list at `x`, whose sums are `now`, the linear
+    /// and angular momentum of the sums `before`.
+    pub fn between(
+        before: &PointSums,
+        now: &PointSums,
+        (list, x, mass): (&[u32], &Columns, &[f32]),
+    ) -> Self {
+        let momentum = before.momentum - now.momentum;
+        let fitted = PointSums { momentum, ..*now }.translation();
+        let mut inertia = Mat3::ZERO;
+        for i in list.iter().map(|i| *i as usize) {
+            add_inertia(&mut inertia, x.get(i) - fitted.center, mass[i]);
+        }
+        let spin = before.spin - now.spin - now.mean_position().cross(momentum);
+        Self { rotation: Pivot::Nothing.rotation(inertia, spin.as_vec3()), ..fitted }
     }
 
     /// The angular momentum of displacements less the translation, and the moment of inertia, both
     /// about the centre.
-    fn spin_and_inertia_of_points(
-        &self,
-        points: impl Iterator<Item = (Vec3, Vec3, f32)>,
-    ) -> (Vec3, Mat3) {
-        let (mut spin, mut inertia) = (Vec3::ZERO, Mat3::ZERO);
-        for (x, displacement, mass) in points {
+    fn spin_and_inertia_of_points(&self, points: Points<'_>) -> (Vec3, Mat3) {
+        let (mut spin, mut inertia) = (DVec3::ZERO, Mat3::ZERO);
+        points(&mut |x, displacement, mass| {
             let r = x - self.center;
-            spin += r.cross(displacement - self.translation) * mass;
+            spin += (r.cross(displacement - self.translation) * mass).as_dvec3();
             add_inertia(&mut inertia, r, mass);
-        }
-        (spin, inertia)
-    }
-
-    /// The centre of mass of points, and the translation with their momentum.
-    fn translation_of_points<I: Iterator<Item = (Vec3, Vec3, f32)>>(
-        points: &impl Fn() -> I,
-    ) -> Self {
-        let (mut total, mut center, mut translation) = (0.0, Vec3::ZERO, Vec3::ZERO);
-        for (x, displacement, mass) in points() {
-            total += mass;
-            center += x * mass;
-            translation += displacement * mass;
-        }
-        Self::translation_from_sums(total, center, translation)
+        });
+        (spin.as_vec3(), inertia)
     }
 
     /// The centre of mass and the translation, from sums over particles: of masses, of positions
@@ -100,18 +102,14 @@ impl RigidMotion {
     /// The centre of mass of all free particles, and the translation with their momentum, in SIMD
     /// lanes.
     pub fn translation_of_free(level: Level, free: FreeParticles<'_>) -> Self {
-        let mut sums = [[0.0; LANES]; 7];
-        sum_momentum(level, free, &mut sums);
-        let [total, x, y, z, dx, dy, dz] = sums.map(sum_of_lanes);
-        Self::translation_from_sums(total, Vec3::new(x, y, z), Vec3::new(dx, dy, dz))
+        let LinearSums { mass, center, momentum } = LinearSums::of(level, free);
+        Self::translation_from_sums(mass, center, momentum)
     }
 
     /// As `fit`, for all free particles, in SIMD lanes.
     pub fn of_free(level: Level, free: FreeParticles<'_>) -> Self {
         let Self { center, translation, .. } = Self::translation_of_free(level, free);
-        let mut sums = [[0.0; LANES]; 9];
-        sum_angular_momentum(level, free, [center.to_array(), translation.to_array()], &mut sums);
-        let (spin, inertia) = spin_and_inertia(sums.map(sum_of_lanes));
+        let (spin, inertia) = spin_and_inertia(level, free, [center, translation]);
         Self { center, translation, rotation: solve(&inertia, spin) }
     }
 
@@ -125,10 +123,14 @@ impl RigidMotion {
             }
             Pivot::Point(point) | Pivot::Axis(point, _) => (point, Vec3::ZERO),
         };
-        let mut sums = [[0.0; LANES]; 9];
-        sum_angular_momentum(level, free, [center.to_array(), translation.to_array()], &mut sums);
-        let (spin, inertia) = spin_and_inertia(sums.map(sum_of_lanes));
+        let (spin, inertia) = spin_and_inertia(level, free, [center, translation]);
         Self { center, translation, rotation: pivot.rotation(inertia, spin) }
+    }
+
+    /// The motion of a body about its `center` with this translation, angular momentum and moment of
+    /// inertia.
+    pub fn with_momentum(center: Vec3, translation: Vec3, spin: Vec3, inertia: Mat3) -> Self {
+        Self { center, translation, rotation: Pivot::Nothing.rotation(inertia, spin) }
     }
 
     /// The translation [m].
@@ -194,6 +196,17 @@ impl RigidMotion {
     }
 }
 
+impl PointSums {
+    /// The centre of mass of the points, and the translation with their momentum.
+    fn translation(&self) -> RigidMotion {
+        RigidMotion::translation_from_sums(
+            self.mass as f32,
+            self.center.as_vec3(),
+            self.momentum.as_vec3(),
+        )
+    }
+}
+
 /// One component of a rigid motion: `translation + rotation[0] · (at[1] − center[1]) −
 /// rotation[1] · (at[0] − center[0])`, where 0 and 1 are the next axes in cyclic order.
 #[derive(Clone, Copy)]
@@ -202,160 +215,6 @@ pub(crate) struct Component<'a> {
     pub rotation: [f32; 2],
     pub center: [f32; 2],
     pub at: [&'a [f32]; 2],
-}
-
-/// All particles: positions, displacements, masses and inverse masses. The sums skip those with
-/// zero inverse mass.
-#[derive(Clone, Copy)]
-pub(crate) struct FreeParticles<'a> {
-    pub x: [&'a [f32]; 3],
-    pub displacement: [&'a [f32]; 3],
-    pub mass: &'a [f32],
-    pub w: &'a [f32],
-}
-
-impl<'a> FreeParticles<'a> {
-    /// The particles of a range.
-    #[inline(always)]
-    fn slice(&self, from: usize, to: usize) -> Self {
-        let Self { x, displacement, mass, w } = *self;
-        let [x, displacement] = [x, displacement]
-            .map(|columns: [&'a [f32]; 3]| columns.map(|column| &column[from..to]));
-        Self { x, displacement, mass: &mass[from..to], w: &w[from..to] }
-    }
-
-    /// Positions, displacements and masses in lanes; the mass of a held particle is 0.
-    #[inline(always)]
-    fn load<S: Simd>(&self, s: S, at: usize) -> ([S::F; 3], [S::F; 3], S::F) {
-        let ([x, y, z], [dx, dy, dz]) = (self.x, self.displacement);
-        (
-            [s.load(x, at), s.load(y, at), s.load(z, at)],
-            [s.load(dx, at), s.load(dy, at), s.load(dz, at)],
-            s.select_or_zero(s.load(self.w, at), s.load(self.mass, at)),
-        )
-    }
-}
-
-vectored! {
-    /// Sums m, m x and m d. Particle i goes to lane i mod 8.
-    fn sum_momentum(free: FreeParticles<'_>, sums: &mut [LaneArray; 7])
-        = sum_momentum_lanes, Avx2, sum_momentum_scalar
-}
-
-vectored! {
-    /// Sums m r × (d − t) and the products of m r, where r leads from the centre of mass.
-    fn sum_angular_momentum(free: FreeParticles<'_>, mean: [[f32; 3]; 2], sums: &mut [LaneArray; 9])
-        = sum_angular_momentum_lanes, Avx2, sum_angular_momentum_scalar
-}
-
-fn sum_momentum_scalar(free: FreeParticles<'_>, sums: &mut [LaneArray; 7]) {
-    sum_momentum_lanes(Scalar, free, sums);
-}
-
-fn sum_angular_momentum_scalar(
-    free: FreeParticles<'_>,
-    mean: [[f32; 3]; 2],
-    sums: &mut [LaneArray; 9],
-) {
-    sum_angular_momentum_lanes(Scalar, free, mean, sums);
-}
-
-#[inline(always)]
-fn sum_momentum_lanes<S: Simd>(s: S, free: FreeParticles<'_>, sums: &mut [LaneArray; 7]) {
-    let count = free.w.len();
-    let whole = free.slice(0, count / LANES * LANES);
-    for first in (0..LANES).step_by(S::LANES) {
-        let mut sum = [s.splat(0.0); 7];
-        let mut at = first;
-        while at + S::LANES <= whole.w.len() {
-            add_momentum(&mut sum, whole.load(s, at));
-            at += LANES;
-        }
-        for (sums, sum) in sums.iter_mut().zip(sum) {
-            s.store(sums, first, sum);
-        }
-    }
-    let rest = free.slice(whole.w.len(), count);
-    for lane in 0..rest.w.len() {
-        let mut sum = sums.map(|sums| sums[lane]);
-        add_momentum(&mut sum, rest.load(Scalar, lane));
-        sums.iter_mut().zip(sum).for_each(|(sums, sum)| sums[lane] = sum);
-    }
-}
-
-#[inline(always)]
-fn sum_angular_momentum_lanes<S: Simd>(
-    s: S,
-    free: FreeParticles<'_>,
-    [center, translation]: [[f32; 3]; 2],
-    sums: &mut [LaneArray; 9],
-) {
-    let count = free.w.len();
-    let whole = free.slice(0, count / LANES * LANES);
-    let mean = [
-        [s.splat(center[0]), s.splat(center[1]), s.splat(center[2])],
-        [s.splat(translation[0]), s.splat(translation[1]), s.splat(translation[2])],
-    ];
-    for first in (0..LANES).step_by(S::LANES) {
-        let mut sum = [s.splat(0.0); 9];
-        let mut at = first;
-        while at + S::LANES <= whole.w.len() {
-            add_angular_momentum(&mut sum, mean, whole.load(s, at));
-            at += LANES;
-        }
-        for (sums, sum) in sums.iter_mut().zip(sum) {
-            s.store(sums, first, sum);
-        }
-    }
-    let rest = free.slice(whole.w.len(), count);
-    for lane in 0..rest.w.len() {
-        let mut sum = sums.map(|sums| sums[lane]);
-        add_angular_momentum(&mut sum, [center, translation], rest.load(Scalar, lane));
-        sums.iter_mut().zip(sum).for_each(|(sums, sum)| sums[lane] = sum);
-    }
-}
-
-#[inline(always)]
-fn add_momentum<F: Float>(sum: &mut [F; 7], (x, displacement, mass): ([F; 3], [F; 3], F)) {
-    sum[0] = sum[0] + mass;
-    for axis in 0..3 {
-        sum[1 + axis] = sum[1 + axis] + x[axis] * mass;
-        sum[4 + axis] = sum[4 + axis] + displacement[axis] * mass;
-    }
-}
-
-#[inline(always)]
-fn add_angular_momentum<F: Float>(
-    sum: &mut [F; 9],
-    [center, translation]: [[F; 3]; 2],
-    (x, displacement, mass): ([F; 3], [F; 3], F),
-) {
-    let [x, y, z] = [x[0] - center[0], x[1] - center[1], x[2] - center[2]];
-    let (dx, dy, dz) = (
-        displacement[0] - translation[0],
-        displacement[1] - translation[1],
-        displacement[2] - translation[2],
-    );
-    let (mx, my, mz) = (x * mass, y * mass, z * mass);
-    let new = [
-        my * dz - mz * dy,
-        mz * dx - mx * dz,
-        mx * dy - my * dx,
-        mx * x,
-        my * y,
-        mz * z,
-        mx * y,
-        my * z,
-        mz * x,
-    ];
-    for (sum, new) in sum.iter_mut().zip(new) {
-        *sum = *sum + new;
-    }
-}
-
-/// Sum of all lanes.
-fn sum_of_lanes(lanes: LaneArray) -> f32 {
-    lanes.into_iter().sum()
 }
 
 /// What holds a body: it leaves free the rotation about itself.
@@ -391,17 +250,8 @@ impl Pivot {
     }
 }
 
-/// The angular momentum and the moment of inertia from the sums of [`sum_angular_momentum`].
-fn spin_and_inertia([x, y, z, xx, yy, zz, xy, yz, zx]: [f32; 9]) -> (Vec3, Mat3) {
-    let inertia = Mat3::from_cols(
-        Vec3::new(yy + zz, -xy, -zx),
-        Vec3::new(-xy, zz + xx, -yz),
-        Vec3::new(-zx, -yz, xx + yy),
-    );
-    (Vec3::new(x, y, z), inertia)
-}
-
 /// Adds the moment of inertia of a point of `mass` [kg] at `r` [m] from the centre.
+#[inline(never)]
 fn add_inertia(inertia: &mut Mat3, r: Vec3, mass: f32) {
     let r2 = r.length_squared();
     let products = [r * r.x, r * r.y, r * r.z];

@@ -22,6 +22,7 @@ use crate::model::material::Material;
 use crate::solver::collide::relative_motion;
 use crate::solver::stretch::link_projection::is_rigid;
 use crate::solver::world::World;
+use crate::state::colliders::Impulse;
 use crate::state::settings::BdfScheme;
 
 /// Most substeps of a tick, as a multiple of those that the settings ask for.
@@ -90,7 +91,13 @@ impl World {
     /// one of BDF1. Positions and velocities stay.
     pub fn drop_history(&mut self) {
         self.particles.drop_history();
+        self.drop_pending_impulses();
         self.has_no_history = true;
+    }
+
+    /// Forgets the impulses of colliders that a dropped history will not deliver.
+    pub fn drop_pending_impulses(&mut self) {
+        self.colliders.iter_mut().for_each(|body| body.pending = Impulse::default());
     }
 
     /// Share of a position correction that counts as velocity; 1 while ticks have one length.

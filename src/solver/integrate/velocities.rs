@@ -14,6 +14,7 @@
 use crate::math::simd::leveled;
 use crate::math::trig::exp_decay;
 use crate::solver::collide::response::resolve_velocities;
+use crate::solver::integrate::impact_momentum;
 use crate::solver::kinematic::anchors;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::settings::BdfScheme;
@@ -22,6 +23,7 @@ use crate::state::settings::BdfScheme;
 pub(crate) fn update(world: &mut World) {
     let (scheme, share) = (world.scheme(), world.correction_share());
     let decay = exp_decay(f64::from(-world.settings.damping) * f64::from(scheme.h));
+    impact_momentum::begin(world, decay);
     let p = &mut world.particles;
     let (displacement, predicted) = (&world.scratch.displacement, &world.scratch.predicted);
     let level = world.level;

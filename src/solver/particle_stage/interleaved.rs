@@ -245,8 +245,9 @@ mod tests {
                 x.set(i, vector(i, 0));
                 velocities.set(i, vector(i, 3));
             }
-            let points = || (0..count).map(|i| (vector(i, 0), vector(i, 3), 1.0));
-            let motion = RigidMotion::of_points(points);
+            let motion = RigidMotion::of_points(&|add| {
+                (0..count).for_each(|i| add(vector(i, 0), vector(i, 3), 1.0));
+            });
             let [mut particles, mut relative] = [(); 2].map(|()| Vec::new());
             gather(&mut particles, &x, &w);
             gather_relative(&motion, &x, &velocities, &mut relative);

@@ -19,7 +19,6 @@
 use crate::geometry::transform::Transform;
 use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::world::World;
-use crate::state::anchors::AnchorConstraint;
 use glam::Vec3;
 
 /// Computes the rollback position of every particle.
@@ -44,9 +43,9 @@ pub(crate) fn compute(world: &mut World) {
             let displacement = |i: usize| p.x.get(i) - p.x_prev_tick.get(i);
             let anchors = || particles().filter_map(|i| world.anchors.get(i as u32));
             let motion = if anchors().next().is_some() {
-                let motion_of =
-                    |anchor: &AnchorConstraint| (anchor.from, anchor.anchor - anchor.from, 1.0);
-                RigidMotion::of_points(|| anchors().map(motion_of))
+                RigidMotion::of_points(&|add| {
+                    anchors().for_each(|anchor| add(anchor.from, anchor.anchor - anchor.from, 1.0));
+                })
             } else {
                 RigidMotion::fit(particles, &p.x_prev_tick, displacement, &p.mass)
             };

@@ -35,6 +35,9 @@
 //! v ← 0                          if v₀ · m < 0: the particle was pulled back; it would oscillate
 //! v ← m + d min(1, |m| / |d|)    otherwise: a body that accelerates evenly from rest has v = 2 m
 //! ```
+//! At the end of the last phase `piece_momentum` gives free pieces back what this took of their
+//! momentum.
+//!
 //! Reads `constraints`, `pin_order`, `tethers`, pins, grabs, anchors; writes positions, velocities,
 //! `over_stretched` and one event. Invariant: a link that was within the limit a tick ago is within
 //! it now.
@@ -42,7 +45,6 @@
 use crate::math::columns::Columns;
 use crate::model::links::{LinkKind, Links};
 use crate::solver::collide::{self, Projection};
-use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::kinematic::anchors;
 use crate::solver::stretch::distance::project_upper_bound;
 use crate::solver::stretch::sweep_order::SweepOrder;
@@ -140,9 +142,7 @@ fn project_all(world: &mut World, limit: f32) {
         // The last tick is no state to roll back to, and the contraction must not fling the cloth.
         rollback::compute(world);
         collide::project_out(world, Projection::Surface);
-        world.scratch.correction.copy_from(&world.particles.v);
         stop_moved(world);
-        restore_momentum(world);
     } else {
         // If anchors hold the cloth apart now, they did so in the last tick too, and there is no
         // valid state to roll back to. The cloth contracts as far as the anchors permit.
@@ -157,13 +157,15 @@ fn project_all(world: &mut World, limit: f32) {
     }
 }
 
-/// Sets the velocities of all particles to zero that moved since `scratch.predicted` was stored.
+/// Sets the velocities of all particles to zero that moved since `scratch.predicted` was stored. What
+/// their history still adds stays: it may belong to the impulse of a collider.
 fn stop_moved(world: &mut World) {
+    let h = world.regular_scheme().h;
     let (p, before) = (&mut world.particles, &world.scratch.predicted);
-    for i in (0..p.len()).filter(|i| p.x.get(*i) != before.get(*i)) {
-        p.v.set(i, Vec3::ZERO);
-        p.v_extrapolated.set(i, Vec3::ZERO);
-        p.displacement.set(i, Vec3::ZERO);
+    for i in 0..p.len() {
+        if p.x.get(i) != before.get(i) {
+            p.add_velocity(i, -p.v.get(i), h);
+        }
     }
 }
 
@@ -227,45 +229,15 @@ fn roll_back(world: &mut World, limit: f32) {
     }
 }
 
-/// Adds the corrections since `scratch.predicted` to the velocities, as the module doc describes
-/// (4). Free pieces keep their momentum.
+/// Adds the corrections since `scratch.predicted` to the velocities, as the module doc describes (4).
 fn update_velocities(world: &mut World) {
-    world.scratch.correction.copy_from(&world.particles.v);
-    add_corrections(world);
-    restore_momentum(world);
-}
-
-/// Gives each free piece the momentum and the angular momentum back that it had with the velocities
-/// `scratch.correction`: the bounds of [`add_corrections`] take some of it, and what a collider gave
-/// to a few particles belongs to the whole piece.
-fn restore_momentum(world: &mut World) {
-    if world.pins.has_soft() || !world.anchors.is_empty() {
-        return;
-    }
-    let h = world.regular_scheme().h;
-    let (p, scratch) = (&mut world.particles, &world.scratch);
-    for piece in scratch.pieces.members.iter() {
-        let particles = || piece.iter().map(|i| *i as usize);
-        if particles().any(|i| p.w[i] <= 0.0) {
-            continue;
-        }
-        let lost = |i: usize| scratch.correction.get(i) - p.v.get(i);
-        let motion = RigidMotion::fit(particles, &p.x, lost, &p.mass);
-        for i in particles() {
-            let change = motion.displacement_at(p.x.get(i));
-            p.v.add(i, change);
-            p.v_extrapolated.add(i, change);
-            p.displacement.add(i, change * h);
-        }
-    }
-}
-
-/// Adds the corrections since `scratch.predicted` to the velocities.
-fn add_corrections(world: &mut World) {
     let inv_tick = 1.0 / world.settings.tick;
     let h = world.regular_scheme().h;
     let (p, scratch) = (&mut world.particles, &world.scratch);
-    for i in (0..p.len()).filter(|i| p.w[*i] > 0.0) {
+    for i in 0..p.len() {
+        if p.w[i] <= 0.0 {
+            continue;
+        }
         let mean = (p.x.get(i) - p.x_prev_tick.get(i)) * inv_tick;
         let difference = p.v.get(i) + (p.x.get(i) - scratch.predicted.get(i)) * inv_tick - mean;
         let (difference2, mean2) = (difference.length_squared(), mean.length_squared());
@@ -279,10 +251,7 @@ fn add_corrections(world: &mut World) {
         } else {
             mean + difference
         };
-        let change = v - p.v.get(i);
-        p.v.add(i, change);
-        p.v_extrapolated.add(i, change);
-        p.displacement.add(i, change * h);
+        p.add_velocity(i, v - p.v.get(i), h);
     }
 }
 

@@ -18,12 +18,6 @@ pub const MAX_TRIANGLE_DEPTH: f64 = 1.0e-4;
 pub const MAX_VELOCITY_ERROR: f64 = 1.0e-3;
 /// Unexplained change of the angular velocity in one tick that fails [rad/s].
 pub const MAX_SPIN_ERROR: f64 = 2.0e-2;
-/// What is allowed in addition while colliders push: this share of their impulses in this tick and
-/// the last one.
-pub const LAG: f64 = 0.25;
-/// What is allowed in addition over the whole scene: this share of all impulses of colliders.
-pub const MAX_DRIFT_SHARE: f64 = 0.02;
-
 /// The worst value of a measure and the tick in which it occurred.
 #[derive(Clone, Copy, Debug)]
 pub struct Worst {
@@ -83,41 +77,23 @@ pub struct Budget {
     /// The worst tick, as changes of the mean velocity [m/s] and of the angular velocity [rad/s].
     pub velocity: Worst,
     pub spin: Worst,
-    /// The greatest excess over what a tick is allowed, above 0 if one fails [m/s, rad/s].
-    velocity_excess: f64,
-    spin_excess: f64,
     /// Sum over the scene [m/s].
     drift: DVec3,
     /// Sum of the impulses of colliders, per mass [m/s].
     pub pushes: f64,
-    /// Impulses of the last tick, per mass and per moment of inertia [m/s, rad/s].
-    last: [f64; 2],
 }
 
 impl Budget {
     fn new() -> Self {
-        Self {
-            velocity: Worst::new(),
-            spin: Worst::new(),
-            velocity_excess: f64::NEG_INFINITY,
-            spin_excess: f64::NEG_INFINITY,
-            drift: DVec3::ZERO,
-            pushes: 0.0,
-            last: [0.0; 2],
-        }
+        Self { velocity: Worst::new(), spin: Worst::new(), drift: DVec3::ZERO, pushes: 0.0 }
     }
 
     fn update(&mut self, residual: Residual, tick: u32) {
         let (velocity, spin) = (residual.velocity.length(), residual.spin.length());
         self.velocity.update(velocity, tick);
         self.spin.update(spin, tick);
-        let allowed = MAX_VELOCITY_ERROR + LAG * (residual.push + self.last[0]);
-        self.velocity_excess = self.velocity_excess.max(velocity - allowed);
-        let allowed = MAX_SPIN_ERROR + LAG * (residual.turn + self.last[1]);
-        self.spin_excess = self.spin_excess.max(spin - allowed);
         self.drift += residual.velocity;
         self.pushes += residual.push;
-        self.last = [residual.push, residual.turn];
     }
 
     /// Unexplained change of the mean velocity over the scene [m/s].
@@ -126,11 +102,10 @@ impl Budget {
     }
 
     fn failures(&self) -> impl Iterator<Item = &'static str> {
-        let most = MAX_VELOCITY_ERROR + MAX_DRIFT_SHARE * self.pushes;
         let failed = [
-            (self.velocity_excess > 0.0, "momentum of a tick"),
-            (self.drift() > most, "momentum of the scene"),
-            (self.spin_excess > 0.0, "angular momentum"),
+            (self.velocity.value > MAX_VELOCITY_ERROR, "momentum of a tick"),
+            (self.drift() > MAX_VELOCITY_ERROR, "momentum of the scene"),
+            (self.spin.value > MAX_SPIN_ERROR, "angular momentum"),
         ];
         failed.into_iter().filter(|(is_failed, _)| *is_failed).map(|(_, what)| what)
     }

@@ -350,19 +350,22 @@ impl ClusterBvh {
         self.normal_cones.update(level, &motion.start, &motion.now);
     }
 
-    /// Grows the swept AABBs of clusters with escaped vertices, and updates their normal cones.
+    /// Grows the swept AABBs of clusters with escaped vertices, and updates the normal cones of those
+    /// and of clusters with vertices that moved.
     pub fn refit_escaped(&mut self, level: Level, motion: &SweptParticles) {
         for i in 0..self.clusters.len() {
             let cluster = &mut self.clusters[i];
             cluster.has_escaped = false;
+            let mut has_moved = false;
             let own = cluster.vertices[0] as usize..cluster.vertices[2] as usize;
             for vertex in &self.vertices[own] {
+                has_moved |= motion.has_moved(*vertex);
                 if motion.has_escaped(*vertex) {
                     cluster.has_escaped = true;
                     self.swept_aabbs[i].merge(&motion.swept_point(*vertex));
                 }
             }
-            self.normal_cones.set_turning(i, cluster.has_escaped);
+            self.normal_cones.set_turning(i, cluster.has_escaped || has_moved);
         }
         self.normal_cones.update_turning(level, &motion.now);
     }

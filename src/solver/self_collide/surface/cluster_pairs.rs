@@ -76,8 +76,8 @@ impl ClusterBvh {
     }
 
     /// Fills `substep_pairs` with the indices of tick pairs that may come nearer than `gap` [m] in
-    /// this substep; with `only_escaped`, those with an escaped vertex. Pairs that the normal cones
-    /// cull are left out.
+    /// this substep; with `only_escaped`, those with an escaped vertex and those that folded since the
+    /// last update of the normal cones. Pairs that the normal cones cull are left out.
     pub fn collect_substep_pairs(
         &self,
         gap: f32,
@@ -89,8 +89,6 @@ impl ClusterBvh {
         for (i, ([one, other], neighbour)) in pairs.enumerate() {
             let is_culled = if one == other {
                 self.normal_cones.is_flat(*one)
-            } else if only_escaped {
-                false
             } else {
                 *neighbour != NONE && self.normal_cones.is_culled(*neighbour)
             };
@@ -98,18 +96,24 @@ impl ClusterBvh {
                 continue;
             }
             let [a, b] = [*one as usize, *other as usize];
-            if only_escaped && !self.clusters[a].has_escaped && !self.clusters[b].has_escaped {
+            let has_escaped = || self.clusters[a].has_escaped || self.clusters[b].has_escaped;
+            if only_escaped && !has_escaped() && !self.has_folded(i as u32) {
                 continue;
             }
-            if a != b && !self.swept_aabbs[a].overlaps(&self.swept_aabbs[b], gap) {
-                continue;
-            }
-            if !only_escaped
-                || *neighbour == NONE
-                || !self.normal_cones.is_culled_after_update(*neighbour)
-            {
+            if a == b || self.swept_aabbs[a].overlaps(&self.swept_aabbs[b], gap) {
                 substep_pairs.push(i as u32);
             }
+        }
+    }
+
+    /// Whether the normal cones culled a tick pair before they were last updated, and do not now.
+    pub fn has_folded(&self, tick_pair: u32) -> bool {
+        let ([one, other], neighbour) =
+            (self.tick_pairs[tick_pair as usize], self.tick_pair_neighbours[tick_pair as usize]);
+        if one == other {
+            self.normal_cones.has_folded(one)
+        } else {
+            neighbour != NONE && self.normal_cones.has_folded_pair(neighbour)
         }
     }
 

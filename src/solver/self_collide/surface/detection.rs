@@ -139,7 +139,9 @@ impl Detector<'_> {
     ) {
         let (level, gap) = (self.level, self.rest_gap.gap);
         for (number, pair) in pairs.iter().enumerate() {
-            let has_escaped = |ids: &[u32; 4]| ids.iter().any(|id| self.motion.has_escaped(*id));
+            let has_folded = self.bvh.has_folded(*pair);
+            let has_escaped =
+                |ids: &[u32; 4]| has_folded || ids.iter().any(|id| self.motion.has_escaped(*id));
             self.bvh.push_candidates::<KIND>(*pair, self.margin(), candidates, has_escaped);
             if candidates.len() > BATCH || number + 1 == pairs.len() {
                 let count = candidates.len() as u32;

@@ -72,6 +72,9 @@ pub(crate) struct NormalCones {
     first_vertex_block: usize,
     /// A bit for each pair: set if its triangles cannot meet.
     culled: Vec<u8>,
+    /// The same before the last [`Self::update_turning`], and whether each cluster was flat then.
+    was_culled: Vec<u8>,
+    was_flat: Vec<bool>,
 }
 
 impl NormalCones {
@@ -106,6 +109,8 @@ impl NormalCones {
             blocks: vec![block; blocks],
             cones: [(); 2].map(|()| vec![[0.0, 0.0, 0.0, -1.0]; blocks * LANES]),
             culled: vec![0; pairs.len()],
+            was_culled: vec![0; pairs.len()],
+            was_flat: vec![false; clusters],
             pairs,
             first_vertex_block,
         }
@@ -114,7 +119,9 @@ impl NormalCones {
     /// Heap memory [bytes].
     pub fn bytes(&self) -> usize {
         let per_block = size_of::<ConeBlock>() + 2 * LANES * size_of::<NormalCone>();
-        per_block * self.blocks.len() + (size_of::<ConePairBlock>() + 1) * self.pairs.len()
+        per_block * self.blocks.len()
+            + (size_of::<ConePairBlock>() + 2) * self.pairs.len()
+            + self.was_flat.len()
     }
 
     /// Sets the corners of a cluster's triangles. With no triangles its cone is unknown.
@@ -157,39 +164,52 @@ impl NormalCones {
         cull_pairs(level, &self.pairs, self.first_vertex_block, cones, &mut self.culled);
     }
 
-    /// Computes the end cones of turning clusters anew. [`Self::is_culled`] keeps its results;
-    /// [`Self::is_culled_after_update`] uses the new cones.
+    /// Computes the end cones of turning clusters anew, and which pairs they cull.
     pub fn update_turning(&mut self, level: Level, now: &[Float4]) {
+        for (was_flat, cluster) in self.was_flat.iter_mut().zip(0..) {
+            *was_flat = is_flat(&self.cones, cluster);
+        }
+        self.was_culled.clone_from(&self.culled);
         compute_cones(level, &self.blocks, now, &mut self.cones[1], true);
+        let cones = [&self.cones[0][..], &self.cones[1]];
+        cull_pairs(level, &self.pairs, self.first_vertex_block, &cones, &mut self.culled);
     }
 
     /// Whether triangles of a cluster cannot meet each other.
     #[inline(always)]
     pub fn is_flat(&self, cluster: u32) -> bool {
-        let [start, end] = &self.cones;
-        min(start[cluster as usize][3], end[cluster as usize][3]) > MIN_COSINE
+        is_flat(&self.cones, cluster)
     }
 
-    /// Whether triangles of a pair cannot meet, by the last [`Self::update`].
+    /// Whether triangles of a pair cannot meet.
     #[inline(always)]
     pub fn is_culled(&self, pair: u32) -> bool {
-        self.culled[pair as usize / LANES] & (1 << (pair as usize % LANES)) != 0
+        has_bit(&self.culled, pair)
     }
 
-    /// Whether triangles of a pair cannot meet, by the current cones.
-    pub fn is_culled_after_update(&self, pair: u32) -> bool {
-        let (block, lane) = (pair as usize / LANES, pair as usize % LANES);
-        let own = self.pairs[block].map(|list| {
-            let mut own = [0; LANES];
-            own[0] = list[lane];
-            own
-        });
-        let mut culled = [0];
-        let first_vertex_block = usize::from(block < self.first_vertex_block);
-        let cones = [&self.cones[0][..], &self.cones[1]];
-        cull_pairs_lanes(Scalar, &[own], first_vertex_block, &cones, &mut culled);
-        culled[0] & 1 != 0
+    /// Whether triangles of a cluster could not meet each other before the last
+    /// [`Self::update_turning`], and can now.
+    #[inline(always)]
+    pub fn has_folded(&self, cluster: u32) -> bool {
+        self.was_flat[cluster as usize] && !self.is_flat(cluster)
     }
+
+    /// Whether triangles of a pair could not meet before the last [`Self::update_turning`], and can
+    /// now.
+    #[inline(always)]
+    pub fn has_folded_pair(&self, pair: u32) -> bool {
+        has_bit(&self.was_culled, pair) && !self.is_culled(pair)
+    }
+}
+
+#[inline(always)]
+fn is_flat([start, end]: &[Vec<NormalCone>; 2], cluster: u32) -> bool {
+    min(start[cluster as usize][3], end[cluster as usize][3]) > MIN_COSINE
+}
+
+#[inline(always)]
+fn has_bit(bits: &[u8], pair: u32) -> bool {
+    bits[pair as usize / LANES] & (1 << (pair as usize % LANES)) != 0
 }
 
 vectored! {
@@ -374,9 +394,6 @@ mod tests {
             let culled: Vec<bool> = (0..10).map(|pair| cones.is_culled(pair)).collect();
             let expected = angles.map(|angle: f32| angle < 2.0 * MIN_COSINE.acos());
             assert_eq!(culled, expected, "{level:?}");
-            assert!(
-                (0..10).all(|pair| cones.is_culled_after_update(pair) == culled[pair as usize])
-            );
             assert!((0..11).all(|cluster| cones.is_flat(cluster)), "{level:?}");
         }
     }
@@ -390,10 +407,13 @@ mod tests {
             assert!(cones.is_culled(0), "no cluster is set to turn at {level:?}");
             cones.set_turning(1, true);
             cones.update(level, &start, &end);
-            assert!(!cones.is_culled(0) && !cones.is_culled_after_update(0), "{level:?}");
+            assert!(!cones.is_culled(0), "{level:?}");
             cones.update(level, &start, &start);
+            assert!(cones.is_culled(0), "{level:?}");
             cones.update_turning(level, &end);
-            assert!(cones.is_culled(0) && !cones.is_culled_after_update(0), "{level:?}");
+            assert!(!cones.is_culled(0) && cones.has_folded_pair(0), "{level:?}");
+            cones.update_turning(level, &end);
+            assert!(!cones.has_folded_pair(0), "it folded before, at {level:?}");
         }
     }
 

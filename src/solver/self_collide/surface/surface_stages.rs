@@ -19,7 +19,8 @@ use crate::math::wide4::xyz;
 use crate::math::{max, min};
 use crate::solver::collide;
 use crate::solver::integrate::momentum;
-use crate::solver::integrate::rigid_motion::{FreeParticles, RigidMotion};
+use crate::solver::integrate::momentum_sums::FreeParticles;
+use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::particle_stage::interleaved;
 use crate::solver::self_collide::surface::contact_solver::{self, ContactMass, SUPPORTED_SHARE};
 use crate::solver::self_collide::surface::detection::{DetectedContacts, Detector};
@@ -39,10 +40,12 @@ pub(crate) const MAX_GAP: f32 = 0.5;
 const TICK_SLACK: f32 = 0.2;
 
 /// Largest number of repeats of the non-crossing pass, each with the pairs of escaped particles.
-const MAX_REPEATS: u32 = 8;
+const MAX_REPEATS: u32 = 12;
 
-/// Rounds in which colliders and the non-crossing pass alternate.
+/// Rounds in which colliders and the non-crossing pass alternate, and rounds in which they roll
+/// back.
 const COLLIDER_ROUNDS: u32 = 6;
+const ROLLBACK_ROUNDS: u32 = 8;
 
 impl World {
     /// Rebuilds the data of surface collision, or drops it, by `settings.self_collision`.
@@ -74,6 +77,11 @@ fn rest_gap<'a>(world: &'a World, pieces: &'a [u32], gap: f32) -> RestGap<'a> {
 }
 
 impl SurfaceCollision {
+    /// Whether layers touch in this substep.
+    pub(crate) fn has_contacts(&self) -> bool {
+        !self.active.is_empty()
+    }
+
     /// Detects contacts and intersections from the current positions, with `substeps` left in the
     /// tick.
     fn detect(&mut self, world: &World, substeps: u32) {
@@ -132,10 +140,12 @@ impl SurfaceCollision {
         }
     }
 
-    /// Widens the bounds of escaped particles and adds their pairs to the speculative contacts.
-    /// Returns whether all particles are within their bounds now.
-    fn detect_escaped(&mut self, world: &World, may_roll_back: bool) -> bool {
+    /// Widens the bounds of escaped particles, and adds to the speculative contacts their pairs and
+    /// those where the cloth folded since the last detection, when all particles moved or those of
+    /// the last repeat. Returns whether all particles are within their bounds now.
+    fn detect_escaped(&mut self, world: &World, may_roll_back: bool, is_first: bool) -> bool {
         let Self {
+            graph,
             motion,
             tick_bounds,
             bvh,
@@ -148,9 +158,11 @@ impl SurfaceCollision {
         } = self;
         let Widened { any, are_all_within } =
             motion.widen_bounds(world.mean_edge, *gap, may_roll_back);
-        if !any {
+        let moved = (!is_first).then(|| graph.moved());
+        if !any && moved.is_some_and(<[u32]>::is_empty) {
             return are_all_within;
         }
+        motion.set_moved(moved);
         let all = 0..motion.now.len() as u32;
         let escaped = all.filter(|i| motion.has_escaped(*i));
         if !tick_bounds.contain(motion) {
@@ -193,7 +205,7 @@ impl SurfaceCollision {
         let mut known = 0;
         for repeat in 0..=MAX_REPEATS {
             let is_last = repeat == MAX_REPEATS;
-            let were_within = self.detect_escaped(world, may_roll_back || is_last);
+            let were_within = self.detect_escaped(world, may_roll_back || is_last, repeat == 0);
             let Self {
                 contacts,
                 speculative,
@@ -223,16 +235,11 @@ impl SurfaceCollision {
                 non_crossing::roll_back(contacts, motion, graph, leaders, vectors);
                 has_rolled_back = true;
             }
-            let are_within = || {
-                if were_within {
-                    motion.are_within_bounds(graph.moved().iter().copied())
-                } else {
-                    motion.are_within_bounds(0..motion.now.len() as u32)
-                }
-            };
+            let are_within = || were_within || motion.are_within_bounds(0..motion.now.len() as u32);
             let are_separated =
                 || speculative::are_separated(world.level, speculative, &motion.now, graph);
-            if (is_done || may_roll_back) && are_within() && are_separated() {
+            // What moved may have left its bounds, or folded the cloth.
+            if is_done && graph.moved().is_empty() && are_within() && are_separated() {
                 break;
             }
             // Roll-back needs wider bounds and all pairs as contacts, so it waits for the next
@@ -359,6 +366,7 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
             for projection in scratch.contacts.projections() {
                 scratch.predicted.add(projection.particle as usize, projection.correction);
             }
+            scratch.contacts.forget_late_pushes();
         }
     }
     let was_behind = surface.planes.project_all(&mut surface.motion.now) || !pushed.is_empty();
@@ -377,23 +385,27 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
 ///
 /// Particles that the non-crossing pass moved into a collider are projected out of it and get a
 /// plane there, which the next pass respects. If that does not end, they go back to where the
-/// substep began, where they were outside and nothing crossed. What a moving collider still
-/// penetrates after that is projected out: colliders take precedence over non-crossing.
+/// substep began, as the collider carries that along, and so does what they cross there: at the start
+/// nothing was inside and nothing crossed. What a collider still penetrates after that is projected
+/// out: colliders take precedence over non-crossing.
 fn project_out_of_colliders(
     surface: &mut SurfaceCollision,
     world: &mut World,
     substep: u32,
     pushed: &mut Vec<u32>,
 ) {
-    for round in 0..=COLLIDER_ROUNDS {
-        let is_last = round == COLLIDER_ROUNDS;
-        let starts = is_last.then_some(&surface.motion.start[..]);
+    for round in 0..COLLIDER_ROUNDS + ROLLBACK_ROUNDS {
+        let rolls_back = round >= COLLIDER_ROUNDS;
+        let starts = rolls_back.then_some(&surface.motion.start[..]);
         collide::project_out_in_substep(world, substep, starts, pushed);
-        if pushed.is_empty() {
-            return;
-        }
-        let share = if is_last { 0.0 } else { SUPPORTED_SHARE };
+        let Some(first) = pushed.first() else { return };
+        let first = *first as usize;
+        let share = if rolls_back { 0.0 } else { SUPPORTED_SHARE };
         support_projected(surface, world, pushed, share);
+        if rolls_back {
+            let SweptParticles { start, now, rollback_displacement, .. } = &mut surface.motion;
+            *rollback_displacement = xyz(&now[first]) - xyz(&start[first]);
+        }
         surface.enforce_non_crossing(world);
         interleaved::scatter(&surface.motion.now, &mut world.particles.x);
     }

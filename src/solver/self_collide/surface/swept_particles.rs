@@ -46,6 +46,8 @@ pub(crate) struct SweptParticles {
     bound_high: Vec<Float4>,
     /// Whether each particle has escaped from its motion bound.
     escaped: Vec<bool>,
+    /// Whether each particle has moved since the last detection.
+    moved: Vec<bool>,
 }
 
 /// Result of [`SweptParticles::widen_bounds`].
@@ -59,7 +61,7 @@ pub(crate) struct Widened {
 impl SweptParticles {
     pub fn new(capacity: usize) -> Self {
         let [start, now, bound_low, bound_high] = [(); 4].map(|()| Vec::with_capacity(capacity));
-        let escaped = Vec::with_capacity(capacity);
+        let [escaped, moved] = [(); 2].map(|()| Vec::with_capacity(capacity));
         Self {
             start,
             now,
@@ -68,6 +70,7 @@ impl SweptParticles {
             bound_low,
             bound_high,
             escaped,
+            moved,
         }
     }
 
@@ -76,6 +79,7 @@ impl SweptParticles {
         let lists = [&self.start, &self.now, &self.bound_low, &self.bound_high];
         size_of::<Float4>() * lists.iter().map(|list| list.capacity()).sum::<usize>()
             + self.escaped.capacity()
+            + self.moved.capacity()
     }
 
     /// Resets the motion bound of each particle to a box around its current displacement.
@@ -127,6 +131,19 @@ impl SweptParticles {
             are_all_within &= contains(low, high, displacement);
         }
         Widened { any, are_all_within }
+    }
+
+    /// Sets which particles moved since the pairs were detected; `None`: any may have.
+    pub fn set_moved(&mut self, moved: Option<&[u32]>) {
+        self.moved.clear();
+        self.moved.resize(self.now.len(), moved.is_none());
+        moved.into_iter().flatten().for_each(|i| self.moved[*i as usize] = true);
+    }
+
+    /// Whether a particle is one of [`Self::set_moved`].
+    #[inline(always)]
+    pub fn has_moved(&self, particle: u32) -> bool {
+        self.moved[particle as usize]
     }
 
     /// Whether the last [`Self::widen_bounds`] widened the bound of a particle.

@@ -6,10 +6,6 @@
 //! ```
 //! The residual of the first is given as a change of the mean velocity [m/s], that of the second
 //! about the centre of mass as a change of the angular velocity [rad/s].
-//!
-//! The second-order scheme (BDF2) spreads the velocity of an impulse over the next substeps, with
-//! weights that fall by a third. So while impulses change, a tick has a residual that the next tick
-//! takes back; over a whole scene they cancel. `run` allows for that.
 
 use crate::play::Play;
 use muslin::Cloth;
@@ -36,8 +32,6 @@ pub struct Residual {
     pub spin: DVec3,
     /// Change of the mean velocity by the impulses of colliders, the sum of all lengths [m/s].
     pub push: f64,
-    /// The same of the angular velocity [rad/s].
-    pub turn: f64,
 }
 
 impl Momentum {
@@ -66,7 +60,7 @@ impl Momentum {
         let weight = settings.gravity.as_dvec3() * (self.mass * f64::from(settings.tick));
         let mut linear = now.linear - self.linear - weight;
         let mut angular = now.angular - self.angular;
-        let (mut pushes, mut turns) = (0.0, 0.0);
+        let mut pushes = 0.0;
         angular -= (self.center + now.center).cross(weight) * 0.5;
         for body in &play.bodies {
             let Ok(impulse) = play.cloth.collider_impulse(body.collider) else { continue };
@@ -75,7 +69,6 @@ impl Momentum {
             linear += push;
             angular += turn + position.cross(push);
             pushes += push.length();
-            turns += (turn + (position - now.center).cross(push)).length();
         }
         // A residual of the linear momentum acts somewhere; about the centre it does not turn.
         let spin = angular - now.center.cross(linear);
@@ -83,7 +76,6 @@ impl Momentum {
             velocity: linear / self.mass,
             spin: spin / now.inertia,
             push: pushes / self.mass,
-            turn: turns / now.inertia,
         }
     }
 }

@@ -1,0 +1,4 @@
+import init, { Cloth } from "muslin";
+import { play } from "../shared.mjs";
+
+console.log(await play(init, Cloth));

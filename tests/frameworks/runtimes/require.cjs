@@ -1,0 +1,3 @@
+const { default: init, Cloth } = require("muslin");
+
+import("../shared.mjs").then(async ({ play }) => console.log(await play(init, Cloth)));
