@@ -72,3 +72,25 @@ fn ticks_of_several_lengths_made_bending_and_soft_links_add_energy() {
         test_energy(&scene, &mut cloth, 60, 0.0).unwrap();
     }
 }
+
+#[test]
+fn longer_ticks_threw_layers_apart_that_had_met_in_short_ones() {
+    for stretch_stiffness in [Some(15_621.0), None] {
+        let scene = Scene {
+            pieces: 3,
+            speed: 1.4242831,
+            stretch_stiffness,
+            substeps: 3,
+            ticks: vec![4.4416357e-3, 0.28327364e-3, 29.309005e-3],
+            tethers: true,
+            gravity: 0.0,
+            collision: SelfCollision::Surface,
+            pins: 2,
+            seed: 2_222_180_427,
+            ..stiff_grid(7, 6, 0.036_312_226, 7.6561184e-3)
+        };
+        let mut cloth = scene.build();
+        scene.push(&mut cloth);
+        test_energy(&scene, &mut cloth, 12, 0.0).unwrap();
+    }
+}

@@ -403,12 +403,10 @@ fn even_scene(collision: impl Strategy<Value = SelfCollision>) -> impl Strategy<
     })
 }
 
-/// Scenes of any bending stiffness. Ticks of uncut cloth that does not collide by its surface may
-/// differ in length.
+/// Scenes of any bending stiffness. Ticks of uncut cloth may differ in length.
 fn moving_scene(collision: impl Strategy<Value = SelfCollision>) -> impl Strategy<Value = Scene> {
     (scene(collision), 0u32..5).prop_map(|(mut scene, pins)| {
-        let is_cut = scene.kind == Kind::CutGrid && scene.pieces > 1;
-        if is_cut || scene.collision == SelfCollision::Surface {
+        if scene.kind == Kind::CutGrid && scene.pieces > 1 {
             scene.ticks.truncate(1);
         }
         scene.layer_distance = scene.layer_distance.max(1.0);

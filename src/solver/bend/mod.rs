@@ -143,7 +143,6 @@ fn solve_plates(world: &mut World, step: HingeStep, order: SweepOrder) {
         mass: world.material.density * area * lightest,
         start_share: step.start_share,
         is_first: order == SweepOrder::Forward,
-        is_only: world.settings.iterations == 1,
         predicted: &scratch.predicted,
         displacement: &scratch.displacement,
         rest,

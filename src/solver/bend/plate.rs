@@ -18,8 +18,8 @@
 //! solve mirrors the first. So x + d is x times a symmetric matrix with eigenvalues from 0 to 1,
 //! which no time integration scheme turns into growth. A product of both directions (ADI; Peaceman
 //! and Rachford 1955) is not: where pins and cuts keep K_weft and K_warp from commuting it has
-//! complex eigenvalues, which add energy. µ leaves to the links what they did in between. Without a
-//! second solve, the first runs the parts in both orders.
+//! complex eigenvalues, which add energy. µ leaves to the links what they did in between. With one
+//! iteration there is no second solve: the scheme of such settings, BDF1, damps what one order adds.
 //!
 //! Reads plate elements, folds, masses and positions; writes positions and `PlateScratch`.
 //! Invariant: factors and bound are recomputed when pins, masses, elements or stiffness change.
@@ -82,8 +82,6 @@ pub(crate) struct PlateStep<'a> {
     pub start_share: f32,
     /// Whether this is the first solve of the substep.
     pub is_first: bool,
-    /// Whether the substep has no second solve.
-    pub is_only: bool,
     /// Predicted positions and displacements; their difference is the start position.
     pub predicted: &'a Columns,
     pub displacement: &'a Columns,
@@ -326,8 +324,7 @@ pub(crate) fn solve(
         if has_changed || scratch.factors[0].stiffness != stiffness {
             scratch.twist.factor(plates, &scratch.weight[2], w, stiffness);
         }
-        let shift =
-            if step.is_only { 1.0 } else { max(1.0, SHIFT_FACTOR * stiffness_over_mass.sqrt()) };
+        let shift = max(1.0, SHIFT_FACTOR * stiffness_over_mass.sqrt());
         for (factors, shift) in scratch.factors.iter_mut().zip([1.0, shift]) {
             if has_changed || factors.stiffness != stiffness || factors.shift != shift {
                 (factors.stiffness, factors.shift) = (stiffness, shift);
@@ -348,7 +345,7 @@ pub(crate) fn solve(
         }
         scratch.twist.solve(step.level, columns, x, w, offset, true);
     }
-    if !step.is_first || step.is_only {
+    if !step.is_first {
         scratch.twist.solve(step.level, columns, x, w, offset, false);
         for direction in [Direction::Warp, Direction::Weft] {
             scratch.solve_direction(step, direction, columns, x, mass, false);

@@ -55,8 +55,11 @@ pub(crate) fn begin_tick(world: &mut World) {
     let factor = factor.max(last_factor.saturating_sub(1));
     let substeps = least * factor;
     if substeps != world.substeps {
+        let before = world.regular_scheme().h;
         world.substeps = substeps;
         world.drop_history();
+        let after = world.regular_scheme().h;
+        world.warm_start.change_step(before, after);
         world.refresh_soft_pin_masses();
     }
     world.raise_stiffness_step();
@@ -111,40 +114,48 @@ impl World {
     ///
     /// ```text
     /// share = (h / H)² = [1 / H²] / [1 / h²]                       H: `stiffness_step`
-    /// compliant: [λ(H) / (1 + λ(H)) / H²] / [λ(h) / (1 + λ(h)) / h²] = (1 + λ(h)) / (1 + λ(H))
-    /// λ(h) = stiffness h² / mass: one correction removes the share λ / (1 + λ) of a strain
     /// ```
-    /// So soft links, whose stiffness does not depend on h, count in full.
+    /// Links of a soft material count more, see [`World::compliant_share`]. Substeps that a fast
+    /// motion adds give all links the share of rigid ones, so that links carry the cloth along with
+    /// a body.
     pub fn correction_share(&self) -> f32 {
-        let (h, longest) = self.stiffness_steps();
-        if is_rigid(&self.material, LinkKind::Stretch) {
-            return (h / longest) * (h / longest);
+        if is_rigid(&self.material, LinkKind::Stretch) || self.has_regular_stiffness() {
+            let ratio = self.regular_scheme().h / max(self.stiffness_step, MIN_STIFFNESS_STEP);
+            return ratio * ratio;
         }
         let Material { stretch_stiffness_warp, stretch_stiffness_weft, density, .. } =
             self.material;
         let stiffness = max(stretch_stiffness_warp, stretch_stiffness_weft);
-        let rate = LINK_ENDS * stiffness / (density * self.mean_edge * self.mean_edge);
-        (1.0 + rate * h * h) / (1.0 + rate * longest * longest)
+        self.compliant_share(LINK_ENDS * stiffness / (density * self.mean_edge * self.mean_edge))
     }
 
-    /// Share of the correction by bending that counts as velocity: as for compliant links.
+    /// Share of the correction by bending that counts as velocity.
     pub fn bending_share(&self) -> f32 {
-        let (h, longest) = self.stiffness_steps();
         let area = self.mean_edge * self.mean_edge;
-        let rate =
-            BEND_FACTOR * self.material.bend_stiffness / (self.material.density * area * area);
-        (1.0 + rate * h * h) / (1.0 + rate * longest * longest)
+        self.compliant_share(
+            BEND_FACTOR * self.material.bend_stiffness / (self.material.density * area * area),
+        )
     }
 
-    /// Whether corrections have the stiffness of the current substep length: all count in full.
+    /// Whether no change of the settings is left in the stiffness of corrections. Substeps that a
+    /// fast motion adds are no such change.
     pub fn has_regular_stiffness(&self) -> bool {
-        let (h, longest) = self.stiffness_steps();
-        longest <= h
+        self.stiffness_step <= self.settings.scheme(self.settings.substeps).h
     }
 
-    /// Substep length, and that whose stiffness the corrections have [s].
-    fn stiffness_steps(&self) -> (f32, f32) {
-        (self.regular_scheme().h, max(self.stiffness_step, MIN_STIFFNESS_STEP))
+    /// Share of the correction of a compliant constraint that counts as velocity. `rate` is its
+    /// stiffness over mass [1/s²].
+    ///
+    /// ```text
+    /// [λ(H) / (1 + λ(H)) / H²] / [λ(h) / (1 + λ(h)) / h²] = (1 + λ(h)) / (1 + λ(H))
+    /// λ(h) = rate h²: one correction removes the share λ / (1 + λ) of a strain
+    /// ```
+    /// So soft constraints, whose stiffness does not depend on h, count in full.
+    fn compliant_share(&self, rate: f32) -> f32 {
+        let h = self.regular_scheme().h;
+        let [least, longest] = [h, self.stiffness_step].map(|step| max(step, MIN_STIFFNESS_STEP));
+        let short = h / least;
+        short * short * (1.0 + rate * least * least) / (1.0 + rate * longest * longest)
     }
 
     /// Starts a tick: longer substeps make the links softer at once.
