@@ -209,6 +209,26 @@
  */
 #define MUSLIN_EVENT_EDGE_DIVIDED 6
 
+/**
+ * Pins, attachments or grabs hold `count` particles inside a collider; `particle_a` is the first
+ * of them. Reported once, until none is inside.
+ */
+#define MUSLIN_EVENT_HELD_INSIDE 7
+
+/**
+ * `count` particles that nothing holds are inside a collider; `particle_a` is the first of them.
+ * Reported once, until none is inside.
+ *
+ * Other colliders or held cloth leave them no room, or they were placed there.
+ */
+#define MUSLIN_EVENT_FREE_INSIDE 8
+
+/**
+ * With surface collision, edges of the cloth pass through triangles of it: `count` pairs of both.
+ * One of the edges is between `particle_a` and `particle_b`. Reported once, until none does.
+ */
+#define MUSLIN_EVENT_LAYERS_CROSS 9
+
 /** Position [m]: x y z; in 16-bit formats x y z 1. */
 #define MUSLIN_ATTRIBUTE_POSITION 0
 
@@ -732,7 +752,7 @@ typedef struct MuslinEvent {
   uint32_t tick;
   /** Position of the event [m]. */
   MuslinVec3 position;
-  /** First end of the edge. */
+  /** First end of the edge, or the particle. */
   uint32_t particle_a;
   /** Second end of the edge. */
   uint32_t particle_b;
@@ -740,7 +760,7 @@ typedef struct MuslinEvent {
   uint32_t vertex;
   /** The vertex that the new one was split off from. */
   uint32_t source;
-  /** Number of triangles, particles or links. */
+  /** Number of triangles, particles, links or pairs. */
   uint32_t count;
 } MuslinEvent;
 
@@ -1005,8 +1025,19 @@ typedef struct MuslinStats {
    * number.
    */
   uint32_t substeps;
-  /** Always 0. It fills the struct up to a multiple of 8 bytes. */
-  uint32_t reserved;
+  /**
+   * Number of particles that pins, attachments or grabs hold more than 0.1 mm inside a collider.
+   * Nothing is inside a triangle mesh, which has two sides.
+   */
+  uint32_t held_inside;
+  /** Number of other particles more than 0.1 mm inside a collider. */
+  uint32_t free_inside;
+  /**
+   * Number of crossings: pairs of an edge of the cloth and a triangle that it passes through, as
+   * found in the last tick; 0 without surface collision. A cloth without known crossings is
+   * tested in parts, all of it in 16 ticks.
+   */
+  uint32_t crossings;
 } MuslinStats;
 
 /**

@@ -53,6 +53,7 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::Pose;
 use crate::state::settings::Settings;
+use crate::state::violations::Violations;
 use crate::state::wind::Wind;
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
@@ -242,8 +243,7 @@ fn build_world(
         pieces: 0,
         triangle_capacity,
         reserve_reported: false,
-        over_stretched: 0,
-        over_stretch_reported: false,
+        violations: Violations::default(),
         substeps: settings.substeps,
         stiffness_step: 0.0,
         has_no_history: false,

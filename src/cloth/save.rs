@@ -45,6 +45,7 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::{Pose, check_pose};
 use crate::state::settings::Settings;
+use crate::state::violations::Violations;
 use crate::state::wind::Wind;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -91,8 +92,7 @@ struct SaveData<'a> {
     tick: u32,
     reserve_reported: bool,
     tether_slack: f32,
-    over_stretched: u32,
-    over_stretch_reported: bool,
+    violations: Violations,
     sleep: SleepTimer,
     substeps: u32,
     stiffness_step: f32,
@@ -154,8 +154,7 @@ impl Cloth {
             tick: world.tick,
             reserve_reported: world.reserve_reported,
             tether_slack: world.tether_slack,
-            over_stretched: world.over_stretched,
-            over_stretch_reported: world.over_stretch_reported,
+            violations: world.violations,
             sleep: world.sleep,
             substeps: world.substeps,
             stiffness_step: world.stiffness_step,
@@ -305,8 +304,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     world.events.reserve();
     (world.time, world.tick, world.reserve_reported) =
         (saved.time, saved.tick, saved.reserve_reported);
-    world.over_stretched = saved.over_stretched;
-    world.over_stretch_reported = saved.over_stretch_reported;
+    world.violations = saved.violations;
     require(saved.tether_slack >= 0.0)?;
     world.label_pieces();
     world.rebuild_crack_tips();

@@ -188,6 +188,11 @@ function numberOf(event: ClothEvent): number {
       return event.tick + event.position[0];
     case "held-apart":
       return event.particleA + event.particleB + event.count;
+    case "held-inside":
+    case "free-inside":
+      return event.particleA + event.count;
+    case "layers-cross":
+      return event.particleA + event.particleB + event.count;
     case "edge-divided":
       return event.particleA + event.particleB + event.vertex;
   }

@@ -26,6 +26,7 @@ mod contact_distance;
 pub(crate) mod contact_scratch;
 mod distance_cull;
 mod edge_vs_feature;
+pub(crate) mod inside;
 mod local_particles;
 mod long_pairs;
 mod long_triangles;
@@ -98,6 +99,7 @@ pub(crate) fn begin_tick(world: &mut World) {
     scratch.first_pusher = 0;
     scratch.impulses.clear();
     scratch.impulses.extend(world.colliders.iter().map(|_| Impulse::default()));
+    scratch.late_pushes.clone_from(&scratch.impulses);
     broad_phase::update_swept_bounds(world);
 }
 
@@ -221,8 +223,7 @@ pub(crate) fn project_out_in_substep(
 pub(crate) fn solve(world: &mut World, substep: u32) {
     let contacts = &mut world.scratch.contacts;
     contacts.collider_contacts.clear();
-    contacts.late_pushes.clear();
-    contacts.late_pushes.resize(contacts.impulses.len(), Impulse::default());
+    contacts.forget_late_pushes();
     let substeps = world.substeps;
     solve_colliders(world, &|body| substep_frames(body, substep, substeps), None);
 }

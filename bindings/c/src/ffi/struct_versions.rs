@@ -47,7 +47,7 @@ versioned_structs! {
     MuslinChanges: index_count[4], index_count[4], "muslin_changes_init";
     MuslinStream: size[size_of::<usize>()], size[size_of::<usize>()], "muslin_stream_init";
     MuslinWriteDesc: offset[4], relative[4], "muslin_write_desc_init";
-    MuslinStats: seconds[4 * MUSLIN_STAGE_SLOTS], reserved[4], "muslin_stats_init";
+    MuslinStats: seconds[4 * MUSLIN_STAGE_SLOTS], crossings[4], "muslin_stats_init";
 }
 
 /// Implements [`NestedDesc`] for each descriptor that ends in a material and settings.

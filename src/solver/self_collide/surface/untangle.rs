@@ -97,6 +97,15 @@ impl SurfaceIntersections {
         self.intersections.is_empty()
     }
 
+    pub fn len(&self) -> usize {
+        self.intersections.len()
+    }
+
+    /// Returns the edge of the first intersection: its two particles.
+    pub fn first_edge(&self) -> Option<[u32; 2]> {
+        self.intersections.first().map(|intersection| [intersection.ids[0], intersection.ids[1]])
+    }
+
     pub fn clear(&mut self) {
         self.intersections.clear();
     }
