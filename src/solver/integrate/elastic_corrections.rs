@@ -1,16 +1,17 @@
-//! Velocities of elastic corrections where substeps of several lengths alternate.
+//! Velocities of elastic corrections where the settings change the substep length.
 //!
 //! ```text
 //! counted = displacement + share · (x − predicted)         share: World::correction_share
 //! ```
-//! Method: after a jump of the substep length only a share of each correction counts as velocity,
+//! Method: after such a change only a share of each correction counts as velocity,
 //! because the stiffness of rigid links grows with 1 / h². The stiffness of a soft sheet does not
 //! grow, so a larger share of its corrections counts: the predicted position and displacement take
 //! that part. The position at the start of the substep, their difference, stays.
 //!
 //! Reads and writes positions in the current layout, `scratch.predicted` and
 //! `scratch.displacement`; `scratch.relative_wind` is a buffer.
-//! Invariant: while ticks have one length, nothing changes but by the stage itself.
+//! Invariant: while ticks have one length, nothing changes but by the stage itself, also where a
+//! fast motion adds substeps.
 
 use crate::math::columns::Columns;
 use crate::math::{TINY, max};
@@ -28,7 +29,7 @@ pub(crate) fn run(world: &mut World, mut bend: impl FnMut(&mut World)) {
     }
 }
 
-/// Runs bending after a jump of the substep length. Never inlined, since it is rare.
+/// Runs bending after the settings changed the substep length. Never inlined, since it is rare.
 #[inline(never)]
 fn run_counted(world: &mut World, bend: &mut dyn FnMut(&mut World)) {
     let (share, least) = (world.bending_share(), world.correction_share());

@@ -3,8 +3,8 @@
 //!
 //! `time_step` sets the number of substeps and `forces` runs once per tick; `predict` starts and
 //! `velocities` ends each substep. `momentum` removes spurious spin, `recover` replaces invalid
-//! numbers, `elastic_corrections` counts bending where the substep length jumps, and `sleep` skips
-//! the ticks of a cloth at rest.
+//! numbers, `elastic_corrections` counts bending after the settings changed the substep length, and
+//! `sleep` skips the ticks of a cloth at rest.
 
 pub(crate) mod elastic_corrections;
 pub(crate) mod expected_momentum;
