@@ -359,6 +359,7 @@ impl World {
         self.constraints.reserve(opened_edges, self.capacity());
         self.tethers.reserve(self.capacity(), self.mesh.triangles.len());
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
+        scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
         scratch.piece_stack.reserve_total(triangles);
         scratch.pieces.reserve();
         scratch.piece_groups.reserve(triangles);
@@ -379,6 +380,7 @@ impl World {
             self.constraints.hinges.all.len(),
             capacity,
         );
+        self.scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
         let extra = max_opened_edges(&self.mesh, capacity.max(self.mesh.vertex_count()));
         self.scratch.damping =
             damping_scratch::DampingScratch::new(self.constraints.links.len(), extra);
