@@ -18,7 +18,8 @@
 //! │  ├─ SelfContacts  momentum of several pieces, particle collision, then momentum of all
 //! │  ├─ Contacts      colliders: narrow phase and response
 //! │  ├─ Hold          anchors: max distance and backstop
-//! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass and colliders
+//! │  ├─ SelfContacts  surface collision: contact solver, held by colliders, and their friction, then
+//! │  │                non-crossing pass and colliders
 //! │  └─ Velocities    v ← (x - x_start) / h by BDF, then velocities of surface contacts, then
 //! │                   momentum of a free cloth that hits a collider
 //! ├─ Bend         folds (plasticity)         Colliders  colliders reach their end poses

@@ -37,6 +37,7 @@ mod particle_vs_shape;
 mod push_accumulator;
 pub(crate) mod relative_motion;
 pub(crate) mod response;
+pub(crate) mod second_response;
 mod triangle_vs_round;
 
 use crate::geometry::collision_shape::CollisionShape;

@@ -143,17 +143,6 @@ impl RigidMotion {
         Self { translation, ..self }
     }
 
-    /// The part of the motion that keeps a body on a floor with this normal: translation in the
-    /// plane of the floor and rotation about the normal.
-    pub fn project_on_floor(self, normal: Vec3) -> Self {
-        let Self { center, translation, rotation } = self;
-        Self {
-            center,
-            translation: translation - normal * translation.dot(normal),
-            rotation: normal * rotation.dot(normal),
-        }
-    }
-
     /// As `displacement_at`, for points in SIMD lanes.
     #[inline(always)]
     pub fn displacement_lanes<S: Simd>(&self, s: S, [x, y, z]: [S::F; 3]) -> [S::F; 3] {
