@@ -47,7 +47,7 @@ use crate::solver::integrate::{
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::rebase;
 use crate::solver::self_collide::particle_contacts;
-use crate::solver::self_collide::surface::{crossing_report, surface_stages};
+use crate::solver::self_collide::surface::{contact_damping, crossing_report, surface_stages};
 use crate::solver::stage::Stage;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{
@@ -196,7 +196,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, SelfContacts, surface_stages::solve_contacts(world));
     timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
     timed!(world, Velocities, velocities::update(world));
-    timed!(world, SelfContacts, surface_stages::damp_velocities(world));
+    timed!(world, SelfContacts, contact_damping::damp_velocities(world));
     timed!(world, Velocities, impact_momentum::restore(world));
     time_step::end_substep(world);
 }

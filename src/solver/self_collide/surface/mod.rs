@@ -34,7 +34,8 @@
 //! positions at the end of the substep
 //! ```
 //! `detection` runs the steps from cluster pairs to contacts, `surface_stages` runs everything, and
-//! `surface_collision` holds the data. `split_separation` prepares fresh tears.
+//! `surface_collision` holds the data. `contact_damping` corrects velocities at the end of a substep;
+//! `split_separation` prepares fresh tears.
 //!
 //! Method: conservative continuous collision detection with one separating plane per pair, in place
 //! of the roots of cubic polynomials (Provot 1997; Bridson, Fedkiw, Anderson 2002). Each pair has a
@@ -61,6 +62,7 @@ mod cluster;
 mod cluster_bvh;
 mod cluster_pairs;
 mod contact;
+pub(crate) mod contact_damping;
 mod contact_graph;
 mod contact_solver;
 pub(crate) mod crossing_report;

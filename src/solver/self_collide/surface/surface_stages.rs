@@ -4,7 +4,7 @@
 //! ```text
 //! tick       begin_tick
 //! substep    detect_contacts ─▶ solve_contacts ─▶ enforce_non_crossing
-//!            ─▶ (stage `Velocities`) ─▶ damp_velocities
+//!            ─▶ (stage `Velocities`) ─▶ `contact_damping`
 //! tick end   begin_tick ─▶ (strain limit, anchors) ─▶ enforce_non_crossing_at_tick_end
 //! ```
 //! See the module `surface` for the methods.
@@ -19,8 +19,6 @@ use crate::math::wide4::xyz;
 use crate::math::{max, min};
 use crate::solver::collide;
 use crate::solver::integrate::momentum;
-use crate::solver::integrate::momentum_sums::FreeParticles;
-use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::particle_stage::interleaved;
 use crate::solver::self_collide::surface::contact_solver;
 use crate::solver::self_collide::surface::detection::{DetectedContacts, Detector};
@@ -443,41 +441,6 @@ pub(crate) fn enforce_non_crossing_at_tick_end(world: &mut World) {
     }
     let last = world.substeps - 1;
     enforce_non_crossing(world, last);
-}
-
-/// Corrects derived velocities: impacts become inelastic, relative motion at contacts is damped,
-/// and intersections do not deepen.
-pub(crate) fn damp_velocities(world: &mut World) {
-    let h = world.regular_scheme().h;
-    let fall_speed = world.settings.gravity.length() * h;
-    let Some(mut surface) = world.surface_collision.take() else {
-        return;
-    };
-    let SurfaceCollision {
-        contacts, active, open, mobility, motion, vectors, intersections, ..
-    } = &mut *surface;
-    contact_solver::count_support(contacts, active, mobility, &world.particles.w);
-    let is_free = world.scratch.contacts.collider_contacts.is_empty()
-        && !interleaved::has_fixed_particle(&motion.start);
-    let p = &mut world.particles;
-    contact_solver::detect_impacts(contacts, active, &p.v, fall_speed, open);
-    for columns in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
-        contact_solver::remove_impact_velocities(contacts, active, open, columns);
-        intersections.remove_deepening_velocities(&p.w, columns);
-        if !active.is_empty() {
-            let particles = FreeParticles {
-                x: p.x.slices(),
-                displacement: columns.slices(),
-                mass: &p.mass,
-                w: &p.w,
-            };
-            let rigid = RigidMotion::of_free(world.level, particles);
-            interleaved::gather_relative(&rigid, &p.x, columns, vectors);
-            contact_solver::damp_contacts(contacts, active, &p.w, vectors, h, !is_free);
-            interleaved::scatter_relative(&rigid, &p.x, vectors, columns);
-        }
-    }
-    world.surface_collision = Some(surface);
 }
 
 /// Separates those of `vertices` that have the same position as another copy after a split.
