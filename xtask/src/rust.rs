@@ -43,8 +43,8 @@ pub fn lint() -> Result {
 }
 
 /// What looks like a link in a doc comment and is a unit.
-const UNITS: [&str; 11] =
-    ["m", "m²", "m³", "s", "rad", "kg", "N", "J", "bytes", "spacings", "gaps"];
+const UNITS: [&str; 12] =
+    ["m", "m²", "m³", "m⁴", "s", "rad", "kg", "N", "J", "bytes", "spacings", "gaps"];
 
 /// Fails where the documentation of the library has a broken link or another defect.
 fn check_docs() -> Result {
