@@ -16,7 +16,14 @@ import { launch, open, url, variable } from "./browser.mjs";
 const work = variable("MUSLIN_WORK");
 const golden = (await readFile(new URL("../script.hash", import.meta.url), "utf8")).trim();
 const modules = join(work, "node_modules");
-const env = { ...process.env, NEXT_TELEMETRY_DISABLED: "1", NUXT_TELEMETRY_DISABLED: "1", DENO_NO_UPDATE_CHECK: "1" };
+const env = {
+  ...process.env,
+  NEXT_TELEMETRY_DISABLED: "1",
+  NUXT_TELEMETRY_DISABLED: "1",
+  DENO_NO_UPDATE_CHECK: "1",
+  // Vitest colours what it prints where CI is set, whatever it prints to.
+  NO_COLOR: "1",
+};
 
 /** The line that says what to do where the module cannot be loaded. */
 const ADVICE = /^Muslin cannot .*: import muslin\/inline, which has the module inside, or pass the address of raw_bg\.wasm to init\(\)$/;
