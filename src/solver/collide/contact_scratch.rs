@@ -51,6 +51,8 @@ pub(crate) struct ContactScratch {
     pub(super) local_positions: Vec<Vec3>,
     /// For each particle the index of its last contact in `collider_contacts`.
     pub(super) contact_slots: Vec<u32>,
+    /// Scratch: whether each particle was found inside a collider; empty if none was.
+    pub(super) is_inside: Vec<bool>,
 }
 
 impl ContactScratch {
@@ -90,5 +92,6 @@ impl ContactScratch {
         self.long_pairs.reserve(triangles);
         self.local_positions.reserve_total(particles);
         self.contact_slots.resize(particles, 0);
+        self.is_inside.reserve_total(particles);
     }
 }

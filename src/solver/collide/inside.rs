@@ -2,7 +2,7 @@
 //! grabs hold there, and those that two colliders, or a collider and held cloth, leave no room.
 //!
 //! Reads positions, inverse masses, colliders and the blocks near them; writes `violations` and
-//! events. Invariant: the cloth does not move.
+//! events. Invariants: the cloth does not move, and a particle counts once.
 
 use crate::geometry::collision_shape::CollisionShape;
 use crate::solver::collide::distance_cull;
@@ -49,10 +49,11 @@ fn push_event(world: &mut World, kind: EventKind, found: Found) {
 }
 
 /// Returns the held particles and the free ones that are inside a collider.
-fn find(world: &World) -> [Found; 2] {
+fn find(world: &mut World) -> [Found; 2] {
     let mut found = [Found::default(); 2];
-    let contacts = &world.scratch.contacts;
-    let count = world.particles.len();
+    let (contacts, particles) = (&mut world.scratch.contacts, &world.particles);
+    let (count, is_counted) = (particles.len(), &mut contacts.is_inside);
+    is_counted.clear();
     for (at, body) in world.colliders.iter().take(contacts.nearby.entries.len()).enumerate() {
         let Some(shape) = body.collision_shape() else { continue };
         if matches!(shape, CollisionShape::TriangleSurface(..)) {
@@ -62,23 +63,18 @@ fn find(world: &World) -> [Found; 2] {
         for block in contacts.nearby.of_collider(at).particle_blocks {
             let first = *block as usize * BLOCK;
             let range = first..(first + BLOCK).min(count);
-            let x = &world.particles.x;
+            let x = &particles.x;
             if !distance_cull::is_any_below(world.level, x, &frame, bound, range.clone(), -DEPTH) {
                 continue;
             }
-            for i in range.filter(|i| first_body_around(world, *i) == Some(at)) {
-                found[usize::from(world.particles.w[i] > 0.0)].add(i as u32);
+            is_counted.resize(count, false);
+            for i in range {
+                if !is_counted[i] && shape.depth(frame.point_to_local(x.get(i))) > DEPTH {
+                    is_counted[i] = true;
+                    found[usize::from(particles.w[i] > 0.0)].add(i as u32);
+                }
             }
         }
     }
     found
-}
-
-/// Returns the first collider that a particle is inside of, among the live ones.
-fn first_body_around(world: &World, particle: usize) -> Option<usize> {
-    let x = world.particles.x.get(particle);
-    world.colliders.iter().position(|body| {
-        let frame = body.next.to_transform();
-        body.collision_shape().is_some_and(|shape| shape.depth(frame.point_to_local(x)) > DEPTH)
-    })
 }
