@@ -165,6 +165,16 @@ refuses("particle", NOT_PARTICLES, (value, { cloth }) => cloth.setPosition(value
 refuses("particle", NOT_PARTICLES, (value, { cloth }) => cloth.setVelocity(value, [0, 0, 0]));
 refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.setPosition(1, value));
 refuses("velocity", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.setVelocity(1, value));
+for (const [name, method] of [["positions", "setPositions"], ["velocities", "setVelocities"]]) {
+  const lists = [...NOT_LISTS, undefined, [0], [0, 0, "1"], new Float32Array(3 * 100), [0, 0, NaN]];
+  refuses(name, lists, (value, { cloth }) => cloth[method](value));
+  refuses(`${name}[2]`, [[6, Infinity], [8, NaN], [7, -Infinity]], ([at, bad], { cloth }) => {
+    const list = new Float32Array(3 * cloth.positions.length);
+    list[at] = bad;
+    cloth[method](list.subarray(0, 12), 1);
+  });
+  refuses("first", [...NOT_WHOLE, 1000], (value, { cloth }) => cloth[method]([0, 0, 0], value));
+}
 refuses("target", NOT_FINITE, (value, { cloth }) => cloth.pin(1, value));
 const targets = new Float32Array(6);
 const NOT_ROTATIONS = [1, "x", null, [0, 0, 0], [0, 0, 0, 2], [0, 0, 0, NaN], [0, 0, 0, 0]];
@@ -303,6 +313,8 @@ test("an error states the rule, the value and a similar name", () => {
   says(() => (cloth.settings = { maxStretch: -1 }), "`settings.maxStretch` must be at least 0 and finite");
   says(() => Cloth.grid({ columns: 2.5 }), /^`columns` must be a whole number .*, but is 2.5$/);
   says(() => cloth.pin(1000), /^`particle` must be below \d+, but is 1000$/);
+  says(() => cloth.setPositions([0, 0, 0, 0, NaN, 0]), "`positions` must be a number, but is NaN at index 4");
+  says(() => cloth.setPositions(Float32Array.of(0, 0, 0, 0, NaN, 0)), "`positions[1]` must be finite");
   says(() => cloth.tearEdge(0, 5), "`particleB` must be joined to `particleA` by an edge");
 });
 

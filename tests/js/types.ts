@@ -7,6 +7,7 @@ import init, {
   type Attachment,
   type Changes,
   type ClothEvent,
+  type ClothMass,
   type Collider,
   type ColliderDesc,
   type Grab,
@@ -15,7 +16,9 @@ import init, {
   type Material,
   type MeshDesc,
   type MeshReport,
+  type Pose,
   type Preset,
+  type Quat,
   type Settings,
   type Stage,
   type Stats,
@@ -146,7 +149,17 @@ cloth.setPosition(5, [0, 0, 0]);
 cloth.setVelocity(5, new Float64Array(3));
 const velocity: Vec3 = cloth.velocity(5);
 const position: Vec3 = cloth.position(5);
-const mass: number = cloth.mass(5);
+const mass: number = cloth.mass(5) + cloth.mass.total;
+const center: Vec3 = cloth.mass.center;
+const { momentum }: Readonly<ClothMass> = cloth.mass;
+cloth.setPositions(cloth.positions.slice());
+cloth.setPositions([0, 0, 0], 5);
+cloth.setVelocities(cloth.velocities, 0);
+// @ts-expect-error: a list, not a vector per particle
+cloth.setPositions([[0, 0, 0]]);
+const copies: Float32Array[] = [cloth.velocities, cloth.restPositions, cloth.pinTargets];
+const pins: Uint32Array = cloth.pins;
+const awake: boolean = !cloth.asleep && cloth.ticks > 0;
 // @ts-expect-error: a position has three numbers
 cloth.pin(0, "here");
 
@@ -169,6 +182,10 @@ const pushed: readonly number[] = collider.impulse.linear;
 cloth.addCollider({ shape: "mesh", positions: new Float32Array(9), indices: [0, 1, 2], thickness: 0.01 });
 collider.moveTo([0, -1, 0]);
 collider.moveTo([0, -1, 0], [0, 0, 0, 1]);
+const pose: Pose = collider.pose;
+const turnedBy: Quat = pose.rotation;
+// @ts-expect-error: a pose is read-only
+collider.pose = pose;
 collider.remove();
 // @ts-expect-error: no such shape
 cloth.addCollider({ shape: "torus" });

@@ -19,8 +19,13 @@ function describe(value) {
 
 /** Returns a number other than NaN. The core checks whether it may be infinite or negative. */
 export function toNumber(value, name) {
+  return toNumberAt(value, name, "");
+}
+
+/** The same for a number at some `place` of a list, such as " at index 3". */
+function toNumberAt(value, name, place) {
   const isValid = typeof value === "number" && !Number.isNaN(value);
-  if (!isValid) check(false, name, `be a number, but is ${describe(value)}`);
+  if (!isValid) check(false, name, `be a number, but is ${describe(value)}${place}`);
   return value;
 }
 
@@ -60,7 +65,7 @@ export function toVector(value, name, axes = "x, y, z") {
 export function toFloat32Array(value, name, size) {
   const isList = Array.isArray(value) || isNumericArray(value);
   check(isList, name, `be a Float32Array or numbers, but is ${describe(value)}`);
-  if (Array.isArray(value)) value.forEach((number) => toNumber(number, name));
+  if (Array.isArray(value)) value.forEach((number, i) => toNumberAt(number, name, ` at index ${i}`));
   const isWhole = value.length % size === 0;
   if (!isWhole) check(false, name, `hold a multiple of ${size} numbers, but has ${value.length}`);
   return toSafeArray(value, Float32Array);

@@ -11,7 +11,7 @@ import type {
   Wind,
 } from "./fields.js";
 import type { Attachment, Collider, Grab } from "./handles.js";
-import type { Changes, ClothEvent, Hit, MeshReport, Stats } from "./reports.js";
+import type { Changes, ClothEvent, ClothMass, Hit, MeshReport, Stats } from "./reports.js";
 import type { Stream, WriteDesc } from "./write.js";
 
 /**
@@ -106,6 +106,10 @@ export class Cloth {
    * last two ticks when you draw, see `WriteDesc.blend`.
    */
   readonly blend: number;
+  /** Ticks since creation or reset. */
+  readonly ticks: number;
+  /** Whether the cloth sleeps, see `sleepSpeed`: ticks then move nothing until something wakes it. */
+  readonly asleep: boolean;
   /** Whether the stages of a tick are timed, for `stats.seconds`; costs a little. Default false. */
   timing: boolean;
 
@@ -259,12 +263,60 @@ export class Cloth {
   position(particle: number): Vec3;
   /** Returns the velocity of a particle [m/s]. */
   velocity(particle: number): Vec3;
-  /** Returns the mass of a particle [kg]. */
-  mass(particle: number): number;
+  /**
+   * Mass, center of mass and momentum of the whole cloth, computed when one of them is first read;
+   * as a function it returns the mass of one particle [kg].
+   *
+   * @example
+   * ```js
+   * const { total, center } = cloth.mass;
+   * const ofCorner = cloth.mass(0);
+   * ```
+   */
+  readonly mass: Readonly<ClothMass> & ((particle: number) => number);
   /** Moves a particle at once [m]. It keeps its velocity, and a pin moves with it. */
   setPosition(particle: number, position: Vec3Like): void;
   /** Sets the velocity of a particle [m/s]. */
   setVelocity(particle: number, velocity: Vec3Like): void;
+  /** Velocities of all particles, x y z x y z … [m/s]. The array is a copy of its own. */
+  readonly velocities: Float32Array;
+  /**
+   * Positions of all particles in the rest shape, x y z x y z … [m]: where they were at creation,
+   * whatever moved them since. A particle that a tear split off has that of its source; one that a
+   * cut added has the point of the rest edge that was cut. The array is a copy of its own.
+   */
+  readonly restPositions: Float32Array;
+  /**
+   * Places the particles from `first` on at once, x y z x y z … [m]: a whole pose, if there are
+   * three numbers for every particle. They keep their velocities, so set these too to continue from
+   * a recorded state. Pinned particles stay pinned, at the new positions.
+   *
+   * @param first the first particle; default 0
+   * @throws if there are more positions than particles from `first` on, or if one is not finite;
+   * the message names it, such as `positions[71]`
+   *
+   * @example
+   * ```js
+   * const [pose, speeds] = [cloth.positions.slice(), cloth.velocities];
+   * // later:
+   * cloth.setPositions(pose);
+   * cloth.setVelocities(speeds);
+   * ```
+   */
+  setPositions(
+    positions: Float32Array | Float64Array | readonly number[],
+    first?: number,
+  ): void;
+  /**
+   * Sets the velocities of the particles from `first` on, x y z x y z … [m/s].
+   *
+   * @param first the first particle; default 0
+   * @throws as `setPositions`, for `velocities`
+   */
+  setVelocities(
+    velocities: Float32Array | Float64Array | readonly number[],
+    first?: number,
+  ): void;
   /**
    * Sets factors on the masses of particles, 0.001 to 1000, one for each. 1, the initial value, is
    * the mass that follows from the density and the area around the particle; factors stay when the
@@ -283,7 +335,14 @@ export class Cloth {
   // Pins
 
   /** The pinned particles, in ascending order. */
+  readonly pins: Uint32Array;
+  /** The same as `pins`. */
   readonly pinned: Uint32Array;
+  /**
+   * The targets of `pins`, in their order, x y z x y z … [m]. Those of attached particles follow
+   * from the pose of their attachment.
+   */
+  readonly pinTargets: Float32Array;
   /**
    * Pins a particle: holds it at `target` [m], or at its current position. A new target is reached
    * evenly over the ticks of the next `advance`, or in the next tick of `step`.

@@ -18,7 +18,15 @@ import { setState, stateOf } from "./state.js";
 import { countCloth, discountCloth } from "./usage.js";
 import * as fields from "./fields.js";
 import { Attachment, Collider, CONSTRUCTOR_KEY, Grab, checkConstructorKey, packPose } from "./handles.js";
-import { readBytes, readChanges, readEvents, readHit, readMeshReport, readStats } from "./reports.js";
+import {
+  readBytes,
+  readChanges,
+  readEvents,
+  readHit,
+  readMeshReport,
+  readStats,
+  withMassOfCloth,
+} from "./reports.js";
 import { writeIndices, writeVertices } from "./write.js";
 
 const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
@@ -131,6 +139,14 @@ export class Cloth {
 
   get blend() {
     return rawOf(this).blend();
+  }
+
+  get ticks() {
+    return rawOf(this).ticks();
+  }
+
+  get asleep() {
+    return rawOf(this).asleep();
   }
 
   get timing() {
@@ -261,8 +277,10 @@ export class Cloth {
     return Array.from(rawOf(this).velocity(toUint32(particle, "particle")));
   }
 
-  mass(particle) {
-    return rawOf(this).mass(toUint32(particle, "particle"));
+  get mass() {
+    rawOf(this);
+    const massOfParticle = (particle) => rawOf(this).mass(toUint32(particle, "particle"));
+    return withMassOfCloth(massOfParticle, () => rawOf(this).mass_properties());
   }
 
   setPosition(particle, position) {
@@ -277,6 +295,14 @@ export class Cloth {
 
   get pinned() {
     return rawOf(this).pinned();
+  }
+
+  get pins() {
+    return this.pinned;
+  }
+
+  get pinTargets() {
+    return rawOf(this).pin_targets();
   }
 
   pin(particle, target) {
@@ -302,6 +328,24 @@ export class Cloth {
   setPinStiffness(particles, stiffness) {
     const live = rawOf(this);
     live.set_pin_stiffness(toUint32Array(particles, "particles"), toNumber(stiffness, "stiffness"));
+  }
+
+  get velocities() {
+    return rawOf(this).velocities();
+  }
+
+  get restPositions() {
+    return rawOf(this).rest_positions();
+  }
+
+  setPositions(positions, first = 0) {
+    const live = rawOf(this);
+    live.set_positions(toUint32(first, "first"), toFloat32Array(positions, "positions", 3));
+  }
+
+  setVelocities(velocities, first = 0) {
+    const live = rawOf(this);
+    live.set_velocities(toUint32(first, "first"), toFloat32Array(velocities, "velocities", 3));
   }
 
   setMassScales(particles, scales) {

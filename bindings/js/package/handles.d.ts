@@ -1,6 +1,6 @@
 // Handles to the grabs, attachments and colliders of a cloth.
 
-import type { QuatLike, Vec3, Vec3Like } from "./check.js";
+import type { Quat, QuatLike, Vec3, Vec3Like } from "./check.js";
 
 /**
  * A particle that a pointer holds, made by `cloth.grabRay()` or `cloth.grabParticle()`.
@@ -61,6 +61,12 @@ export interface Impulse {
   readonly angular: Vec3;
 }
 
+/** Position [m] and rotation, a unit quaternion. */
+export interface Pose {
+  readonly position: Vec3;
+  readonly rotation: Quat;
+}
+
 /**
  * A collider of a cloth, made by `cloth.addCollider()`. It survives `cloth.reset()`.
  *
@@ -82,6 +88,11 @@ export interface Collider {
    * @throws if the collider was removed, or if the pose is wrong
    */
   teleport(position: Vec3Like, rotation?: QuatLike): void;
+  /**
+   * Where the collider is now: after the last tick, or where it was added or teleported to since. A
+   * pose of `moveTo` counts once a tick has reached it.
+   */
+  readonly pose: Pose;
   /** The effect of the cloth on the collider in the last tick. */
   readonly impulse: Impulse;
   /**

@@ -97,6 +97,12 @@ export class Collider {
     state.rotation = rotationOf(pose);
   }
 
+  get pose() {
+    const { live, handle } = liveStateOf(this, "Collider");
+    const list = Array.from(live.collider_pose(handle));
+    return Object.freeze({ position: Object.freeze(list.slice(0, 3)), rotation: Object.freeze(list.slice(3)) });
+  }
+
   get impulse() {
     const { live, handle } = liveStateOf(this, "Collider");
     const list = Array.from(live.collider_impulse(handle));

@@ -20,6 +20,16 @@ export interface Hit {
   normal: Vec3;
 }
 
+/** Mass, center of mass and momentum of a whole cloth, pinned particles included. */
+export interface ClothMass {
+  /** Sum of the masses of all particles [kg]. */
+  total: number;
+  /** Center of mass [m]. */
+  center: Vec3;
+  /** Sum of mass times velocity of all particles [kg·m/s]. */
+  momentum: Vec3;
+}
+
 /**
  * Something that happened to the cloth. `tick` counts from creation or reset; `position` is where
  * it happened [m]. `particleA` and `particleB` are particles; `vertex` and `source` are vertices,

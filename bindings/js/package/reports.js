@@ -98,3 +98,18 @@ export function readStats(list, stageNames) {
   const seconds = stageNames.split(" ").map((name, index) => [name, list[STATS.length + index]]);
   return { ...stats, asleep: stats.asleep === 1, seconds: Object.fromEntries(seconds) };
 }
+
+/**
+ * Gives the function that returns the mass of a particle the mass of the whole cloth as properties,
+ * which `read` computes when one of them is first read.
+ */
+export function withMassOfCloth(massOfParticle, read) {
+  let list;
+  const at = (start, end) => (list ??= Array.from(read())).slice(start, end);
+  const property = (get) => ({ get, enumerable: true });
+  return Object.defineProperties(massOfParticle, {
+    total: property(() => at(0, 1)[0]),
+    center: property(() => at(1, 4)),
+    momentum: property(() => at(4, 7)),
+  });
+}

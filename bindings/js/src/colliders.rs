@@ -54,6 +54,16 @@ impl RawCloth {
         self.cloth.teleport_collider(collider, position, rotation).map_err(to_js_error)
     }
 
+    /// Returns where a collider is after the last tick: position and rotation.
+    pub fn collider_pose(&self, collider: u32) -> Result<Vec<f64>> {
+        let collider = Collider::from_bits(collider);
+        let (position, rotation) = self.cloth.collider_pose(collider).map_err(to_js_error)?;
+        let mut list = Writer::default();
+        list.vector(position);
+        list.numbers(&rotation.to_array());
+        Ok(list.0)
+    }
+
     /// Removes a collider.
     pub fn remove_collider(&mut self, collider: u32) -> Result<()> {
         self.cloth.remove_collider(Collider::from_bits(collider)).map_err(to_js_error)

@@ -234,6 +234,11 @@ pub(crate) fn to_vectors(list: &[f32]) -> Vec<Vec3> {
     list.as_chunks::<3>().0.iter().copied().map(Vec3::from_array).collect()
 }
 
+/// Converts vectors to x y z x y z ….
+pub(crate) fn to_numbers(vectors: &mut dyn Iterator<Item = Vec3>) -> Vec<f32> {
+    vectors.flat_map(|v| v.to_array()).collect()
+}
+
 /// Converts position and rotation, seven numbers, to a pose.
 pub(crate) fn to_pose(list: &[f64]) -> (Vec3, Quat) {
     let mut list = Reader::new(list);

@@ -1,8 +1,8 @@
-//! Position, velocity and mass of single particles.
+//! Position, velocity and mass of particles, one by one or in bulk.
 
 use crate::RawCloth;
 use crate::error::{Result, to_js_error};
-use crate::packing::Writer;
+use crate::packing::{self, Writer};
 use glam::Vec3;
 use muslin::Error;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -38,6 +38,38 @@ impl RawCloth {
     /// Sets the velocity of a particle [m/s].
     pub fn set_velocity(&mut self, particle: u32, x: f32, y: f32, z: f32) -> Result<()> {
         self.cloth.set_velocity(particle, Vec3::new(x, y, z)).map_err(to_js_error)
+    }
+
+    /// Sets the positions of the particles from `first` on, x y z x y z … [m].
+    pub fn set_positions(&mut self, first: u32, positions: &[f32]) -> Result<()> {
+        let positions = packing::to_vectors(positions);
+        self.cloth.set_positions(first, &positions).map_err(to_js_error)
+    }
+
+    /// Sets the velocities of the particles from `first` on, x y z x y z … [m/s].
+    pub fn set_velocities(&mut self, first: u32, velocities: &[f32]) -> Result<()> {
+        let velocities = packing::to_vectors(velocities);
+        self.cloth.set_velocities(first, &velocities).map_err(to_js_error)
+    }
+
+    /// Returns the velocities of all particles, x y z x y z … [m/s].
+    pub fn velocities(&self) -> Vec<f32> {
+        packing::to_numbers(&mut self.cloth.velocities())
+    }
+
+    /// Returns the positions of all particles in the rest shape, x y z x y z … [m].
+    pub fn rest_positions(&self) -> Vec<f32> {
+        packing::to_numbers(&mut self.cloth.rest_positions())
+    }
+
+    /// Returns mass [kg], center of mass [m] and momentum [kg m/s] of the whole cloth.
+    pub fn mass_properties(&self) -> Vec<f64> {
+        let mass = self.cloth.mass_properties();
+        let mut list = Writer::default();
+        list.number(mass.total);
+        list.vector(mass.center);
+        list.vector(mass.momentum);
+        list.0
     }
 
     /// Sets factors on the masses of particles, one for each.

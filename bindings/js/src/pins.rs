@@ -39,6 +39,12 @@ impl RawCloth {
         self.cloth.set_pin_stiffness(particles, stiffness).map_err(to_js_error)
     }
 
+    /// Returns the targets of the pinned particles, in their order, x y z x y z … [m].
+    pub fn pin_targets(&self) -> Vec<f32> {
+        let target = |particle| self.cloth.pin_target(particle).ok().flatten();
+        packing::to_numbers(&mut self.cloth.pinned().filter_map(target))
+    }
+
     /// Returns the pinned particles in ascending order.
     pub fn pinned(&self) -> Vec<u32> {
         self.cloth.pinned().collect()

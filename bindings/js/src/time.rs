@@ -38,6 +38,16 @@ impl RawCloth {
         self.cloth.time()
     }
 
+    /// Returns the number of ticks since creation or the last reset.
+    pub fn ticks(&self) -> u32 {
+        self.cloth.ticks()
+    }
+
+    /// Returns whether the cloth sleeps.
+    pub fn asleep(&self) -> bool {
+        self.cloth.is_asleep()
+    }
+
     /// Returns the share of a tick that `advance` has not run yet, 0 to 1.
     pub fn blend(&self) -> f32 {
         self.cloth.blend()
