@@ -31,6 +31,7 @@ mod particle_state;
 mod pins;
 mod postcard;
 pub(crate) mod query;
+mod ray_tree;
 mod save;
 mod state_hash;
 mod tear;
@@ -48,6 +49,7 @@ use crate::cloth::build::ClothDesc;
 use crate::cloth::change_history::ChangeHistory;
 use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::cloth::outputs::Outputs;
+use crate::cloth::ray_tree::RayTree;
 use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
@@ -73,6 +75,8 @@ use crate::state::events::Event;
 ///   up by default.
 /// - **Memory** for tears is reserved when the cloth is made (`extra_particles`), so a tick
 ///   allocates nothing.
+/// - **Threads**: a cloth is `Send` and `Sync`. Calls that change nothing may run on several threads
+///   at once.
 ///
 /// ```
 /// use muslin::glam::Vec3;
@@ -114,6 +118,8 @@ pub struct Cloth {
     topology_revision: u32,
     state_revision: u32,
     history: ChangeHistory,
+    /// Built by the first ray; a cloned cloth builds its own.
+    ray_tree: RayTree,
 }
 
 impl Clone for Cloth {
@@ -130,6 +136,7 @@ impl Clone for Cloth {
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
             history: self.history.clone(),
+            ray_tree: RayTree::default(),
         };
         // A cloned `Vec` has no spare capacity: reserve again what tears may need.
         copy.world.reserve(self.world.capacity());
@@ -216,6 +223,7 @@ impl Cloth {
             topology_revision: 1,
             state_revision: 1,
             history: ChangeHistory::new(),
+            ray_tree: RayTree::default(),
         })
     }
 
