@@ -209,6 +209,26 @@
  */
 #define MUSLIN_EVENT_EDGE_DIVIDED 6
 
+/**
+ * Pins, attachments or grabs hold `count` particles inside a collider; `particle_a` is the first
+ * of them. Reported once, until none is inside.
+ */
+#define MUSLIN_EVENT_HELD_INSIDE 7
+
+/**
+ * `count` particles that nothing holds are inside a collider; `particle_a` is the first of them.
+ * Reported once, until none is inside.
+ *
+ * Other colliders or held cloth leave them no room, or they were placed there.
+ */
+#define MUSLIN_EVENT_FREE_INSIDE 8
+
+/**
+ * With surface collision, edges of the cloth pass through triangles of it: `count` pairs of both.
+ * One of the edges is between `particle_a` and `particle_b`. Reported once, until none does.
+ */
+#define MUSLIN_EVENT_LAYERS_CROSS 9
+
 /** Position [m]: x y z; in 16-bit formats x y z 1. */
 #define MUSLIN_ATTRIBUTE_POSITION 0
 
@@ -732,7 +752,7 @@ typedef struct MuslinEvent {
   uint32_t tick;
   /** Position of the event [m]. */
   MuslinVec3 position;
-  /** First end of the edge. */
+  /** First end of the edge, or the particle. */
   uint32_t particle_a;
   /** Second end of the edge. */
   uint32_t particle_b;
@@ -740,7 +760,7 @@ typedef struct MuslinEvent {
   uint32_t vertex;
   /** The vertex that the new one was split off from. */
   uint32_t source;
-  /** Number of triangles, particles or links. */
+  /** Number of triangles, particles, links or pairs. */
   uint32_t count;
 } MuslinEvent;
 
@@ -1005,8 +1025,19 @@ typedef struct MuslinStats {
    * number.
    */
   uint32_t substeps;
-  /** Always 0. It fills the struct up to a multiple of 8 bytes. */
-  uint32_t reserved;
+  /**
+   * Number of particles that pins, attachments or grabs hold more than 0.1 mm inside a collider.
+   * Nothing is inside a triangle mesh, which has two sides.
+   */
+  uint32_t held_inside;
+  /** Number of other particles more than 0.1 mm inside a collider. */
+  uint32_t free_inside;
+  /**
+   * Number of crossings: pairs of an edge of the cloth and a triangle that it passes through, as
+   * found in the last tick; 0 without surface collision. A cloth without known crossings is
+   * tested in parts, all of it in 16 ticks.
+   */
+  uint32_t crossings;
 } MuslinStats;
 
 /**
@@ -1073,6 +1104,49 @@ typedef struct MuslinWriteDesc {
    */
   uint32_t relative;
 } MuslinWriteDesc;
+
+/**
+ * A render mesh that follows a cloth. Initialise it with muslin_skin_desc_init, then set positions
+ * and indices. All lists are copied during the call.
+ */
+typedef struct MuslinSkinDesc {
+  /** Set by muslin_skin_desc_init. */
+  uint32_t struct_size;
+  /**
+   * Positions of the vertices [m], 3 numbers per vertex, where the cloth is now. None may be
+   * farther from the cloth than half the diagonal of the cloth's bounding box.
+   */
+  const float *positions;
+  /**
+   * Distance between the starts of consecutive positions [bytes]; 0 means 12. Default 0. A
+   * multiple of 4.
+   */
+  uint32_t stride;
+  /** Number of vertices. Default 0. From 3 to 4194304. */
+  uint32_t vertex_count;
+  /** Vertices of the triangles, 3 per triangle, counter-clockwise seen from the front. */
+  const uint32_t *indices;
+  /** Number of indices. Default 0. A multiple of 3, at most 50331648. */
+  uint32_t index_count;
+  /** Texture coordinates, 2 numbers per vertex, or NULL for none. */
+  const float *uvs;
+  /**
+   * Curvature over each triangle of the cloth, from 0 (flat triangles) to 1. Default 1.
+   *
+   * Above 0, a fine skin has a smooth outline on a coarse cloth (Phong tessellation). At 1 a
+   * skin lies on a circle between particles that lie on one. Particles are on the surface for
+   * any value.
+   */
+  float smoothness;
+  /** Not used; 0. */
+  uint32_t reserved;
+} MuslinSkinDesc;
+
+/** Handle of a skin. { 0 } is none. Stale once the skin or its cloth is destroyed. */
+typedef struct MuslinSkin {
+  /** Identifies the skin; opaque. */
+  uint64_t id;
+} MuslinSkin;
 
 #ifdef __cplusplus
 extern "C" {
@@ -1925,6 +1999,58 @@ MuslinStatus muslin_cloth_write_indices(MuslinCloth cloth,
                                         uint32_t base_vertex);
 
 /**
+ * Binds a render mesh, usually finer than the cloth, to the cloth as it is now; its lists are
+ * copied. Destroy it with muslin_skin_destroy; it also ends with its cloth.
+ *
+ * Each vertex is bound to the nearest point of the cloth, at its distance from it, and moves along
+ * with the cloth on a surface that is curved over each triangle (`smoothness`). Make the skin while
+ * the cloth has the shape that the mesh was modelled in, usually before the first tick: on a folded
+ * cloth the nearest layer may be another one.
+ *
+ * A triangle of the skin that a tear or cut would stretch goes with one side, that of its center.
+ * Its corners on the other side are copied, so the number of vertices may grow; the number of
+ * indices never changes. muslin_cloth_reset restores the given mesh. muslin_cloth_save contains no
+ * skins.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE or MUSLIN_STATUS_BAD_INDEX for an invalid field of `desc`, also
+ * if a vertex is too far from the cloth; MUSLIN_STATUS_UNSUPPORTED if `desc` is of a newer version
+ * and uses fields that this library does not have
+ */
+MuslinStatus muslin_skin_create(MuslinCloth cloth,
+                                const MuslinSkinDesc *desc,
+                                MuslinSkin *out_skin);
+
+/**
+ * Writes vertices of a skin into your own buffers, as muslin_cloth_write_vertices does.
+ *
+ * Follows tears and cuts first, so call muslin_skin_view for the number of vertices and
+ * `topology_revision` before. Buffers for the view's `vertex_capacity` vertices are always large
+ * enough. With `desc` NULL all vertices are written, untransformed.
+ *
+ * @return the statuses of muslin_cloth_write_vertices; the buffers are untouched then
+ */
+MuslinStatus muslin_skin_write_vertices(MuslinSkin skin,
+                                        const MuslinStream *streams,
+                                        uint32_t stream_count,
+                                        const MuslinWriteDesc *desc);
+
+/**
+ * Returns the lists of a skin where its cloth is now, without a copy.
+ *
+ * The pointers and the data behind them stay valid until the next call that takes the skin or that
+ * changes or destroys its cloth. `source_vertices` are those of the descriptor: its vertices keep
+ * their numbers, copies that tears and cuts need follow. `frayed` is 1 on edges of the skin that a
+ * tear or cut opened. `topology_revision` is that of the skin: it changes whenever its indices or
+ * the number of its vertices do. `particles` is NULL. Initialise `out_view` with muslin_view_init.
+ */
+MuslinStatus muslin_skin_view(MuslinSkin skin, MuslinView *out_view);
+
+/**
+ * Destroys a skin. Its handle becomes stale; memory borrowed from it must no longer be read.
+ */
+MuslinStatus muslin_skin_destroy(MuslinSkin skin);
+
+/**
  * Writes the complete state of a cloth to `size` bytes at `buffer`. `out_needed` receives the
  * number of bytes of the save.
  *
@@ -1972,6 +2098,9 @@ MuslinStatus muslin_stream_init_sized(MuslinStream *stream, uint32_t struct_size
 /** Called by muslin_write_desc_init with the sizeof of MuslinWriteDesc. */
 MuslinStatus muslin_write_desc_init_sized(MuslinWriteDesc *desc, uint32_t struct_size);
 
+/** Called by muslin_skin_desc_init with the sizeof of MuslinSkinDesc. */
+MuslinStatus muslin_skin_desc_init_sized(MuslinSkinDesc *desc, uint32_t struct_size);
+
 /**
  * Called by muslin_grid_desc_init with the sizeof of MuslinGridDesc, MuslinMaterial and
  * MuslinSettings, all of the same header.
@@ -2014,6 +2143,10 @@ static inline void muslin_mesh_desc_init(MuslinMeshDesc *desc) {
   (void)muslin_mesh_desc_init_sized(desc, (uint32_t)sizeof(MuslinMeshDesc),
                                     (uint32_t)sizeof(MuslinMaterial),
                                     (uint32_t)sizeof(MuslinSettings));
+}
+
+static inline void muslin_skin_desc_init(MuslinSkinDesc *desc) {
+  (void)muslin_skin_desc_init_sized(desc, (uint32_t)sizeof(MuslinSkinDesc));
 }
 
 static inline void muslin_wind_init(MuslinWind *wind) {

@@ -1,4 +1,4 @@
-/* Muslin for C++17: a class that owns a cloth and wraps the functions of muslin.h. Header only.
+/* Muslin for C++17: classes that own a cloth or a skin and wrap the functions of muslin.h. Header only.
  *
  * Functions that can fail return a muslin::Result, which is true if the call succeeded.
  *
@@ -159,6 +159,61 @@ inline MuslinWriteDesc write_desc() noexcept {
   muslin_write_desc_init(&desc);
   return desc;
 }
+
+inline MuslinSkinDesc skin_desc() noexcept {
+  MuslinSkinDesc desc;
+  muslin_skin_desc_init(&desc);
+  return desc;
+}
+
+/** Owns a skin and destroys it. Movable, not copyable. A skin ends with its cloth: then calls on it
+ * fail with MUSLIN_STATUS_BAD_HANDLE. */
+class Skin {
+ public:
+  /** Owns no skin: calls on it fail with MUSLIN_STATUS_BAD_HANDLE. */
+  Skin() noexcept = default;
+  /** Takes ownership of a skin. */
+  explicit Skin(MuslinSkin skin) noexcept : skin_(skin) {}
+  Skin(Skin &&other) noexcept : skin_(other.release_handle()) {}
+  Skin &operator=(Skin &&other) noexcept {
+    if (this != &other) {
+      destroy();
+      skin_ = other.release_handle();
+    }
+    return *this;
+  }
+  Skin(const Skin &) = delete;
+  Skin &operator=(const Skin &) = delete;
+  ~Skin() { destroy(); }
+
+  /** The C handle. Still owned by this object. */
+  MuslinSkin handle() const noexcept { return skin_; }
+  /** Whether this object owns a skin. */
+  explicit operator bool() const noexcept { return skin_.id != 0; }
+  /** Gives up ownership; the caller may call muslin_skin_destroy. */
+  MuslinSkin release_handle() noexcept { return std::exchange(skin_, MuslinSkin{}); }
+
+  /** The lists where the cloth is now, valid until the next call on the skin or that changes the
+   * cloth. */
+  Result<MuslinView> view() const noexcept {
+    MuslinView view;
+    muslin_view_init(&view);
+    const MuslinStatus status = muslin_skin_view(skin_, &view);
+    return {status, view};
+  }
+  /** Writes vertices into your own buffers. */
+  template <std::size_t N>
+  Done write_vertices(const MuslinStream (&streams)[N], const MuslinWriteDesc &desc) const noexcept {
+    return muslin_skin_write_vertices(skin_, streams, static_cast<std::uint32_t>(N), &desc);
+  }
+
+ private:
+  void destroy() noexcept {
+    if (skin_.id != 0) (void)muslin_skin_destroy(skin_);
+  }
+
+  MuslinSkin skin_{};
+};
 
 /** Owns a cloth and destroys it. Movable, not copyable. */
 class Cloth {
@@ -476,6 +531,12 @@ class Cloth {
   Done write_indices(void *buffer, std::size_t size, std::uint32_t index_format, bool flip = false,
                      std::uint32_t base_vertex = 0) const noexcept {
     return muslin_cloth_write_indices(cloth_, buffer, size, index_format, flip ? 1 : 0, base_vertex);
+  }
+  /** Binds a render mesh to the cloth as it is now. */
+  Result<Skin> skin(const MuslinSkinDesc &desc) noexcept {
+    MuslinSkin skin{};
+    const MuslinStatus status = muslin_skin_create(cloth_, &desc, &skin);
+    return {status, Skin(skin)};
   }
   /** What was repaired in the mesh that the cloth was made from. */
   Result<MuslinMeshReport> mesh_report() const noexcept {

@@ -1,4 +1,4 @@
-//! Generational arena: a fixed number of slots addressed by handles that detect stale use.
+//! Generational arena: up to a fixed number of slots addressed by handles that detect stale use.
 //!
 //! ```text
 //! handle = generation (16 bits) | slot + 1 (16 bits)        0 = no handle
@@ -6,15 +6,20 @@
 //! A slot gets a new generation when its value is removed, so a handle to the removed value no
 //! longer matches. A generation repeats after 65,535 removals from one slot.
 //!
-//! Invariant: `insert` never allocates, because all slots exist from the start.
+//! Slots are made when they are first needed, so iteration costs nothing for those that never were.
+//!
+//! Invariants: `insert` never allocates, because the memory of all slots is reserved from the start;
+//! a slot is never dropped, so its generation is not forgotten.
 
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize};
 
 /// Values addressed by handles: `generation << 16 | slot + 1`. The handle 0 names nothing.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Arena<T> {
     slots: Vec<Slot<T>>,
+    /// The largest number of slots.
+    capacity: u16,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -23,11 +28,23 @@ struct Slot<T> {
     value: Option<T>,
 }
 
+impl<T: Clone> Clone for Arena<T> {
+    fn clone(&self) -> Self {
+        let mut copy = Self::with_capacity(self.capacity);
+        copy.slots.extend(self.slots.iter().cloned());
+        copy
+    }
+}
+
 impl<T> Arena<T> {
-    /// Allocates `capacity` empty slots. The arena never grows.
+    /// Makes an empty arena for at most `capacity` values.
     pub fn with_capacity(capacity: u16) -> Self {
-        let empty = || Slot { generation: 1, value: None };
-        Self { slots: (0..capacity).map(|_| empty()).collect() }
+        Self { slots: Vec::with_capacity(capacity.into()), capacity }
+    }
+
+    /// Reserves the memory of all slots, for an arena that was read from a save.
+    pub fn reserve(&mut self) {
+        self.slots.reserve_exact(usize::from(self.capacity).saturating_sub(self.slots.len()));
     }
 
     /// Stores `value` in the lowest free slot and returns its handle.
@@ -36,7 +53,13 @@ impl<T> Arena<T> {
     /// [`Error::Full`] with `what` if no slot is free.
     pub fn insert(&mut self, value: T, what: &'static str) -> Result<u32> {
         let free = self.slots.iter().position(|slot| slot.value.is_none());
-        let at = free.ok_or(Error::Full { what })?;
+        let at = free.unwrap_or(self.slots.len());
+        if at >= usize::from(self.capacity) {
+            return Err(Error::Full { what });
+        }
+        if at == self.slots.len() {
+            self.slots.push(Slot { generation: 1, value: None });
+        }
         self.slots[at].value = Some(value);
         Ok(u32::from(self.slots[at].generation) << 16 | (at as u32 + 1))
     }
@@ -85,9 +108,9 @@ impl<T> Arena<T> {
         self.slots.iter_mut().filter_map(|slot| slot.value.as_mut())
     }
 
-    /// Returns the number of slots, occupied or free.
-    pub fn capacity(&self) -> usize {
-        self.slots.len()
+    /// Returns whether the arena has at most `capacity` slots, for one that was read from a save.
+    pub fn is_within(&self, capacity: u16) -> bool {
+        self.capacity == capacity && self.slots.len() <= usize::from(capacity)
     }
 
     fn slot_mut(&mut self, handle: u32) -> Option<&mut Slot<T>> {
@@ -110,6 +133,18 @@ mod tests {
         assert_ne!(old, new);
         assert_eq!(arena.remove(old, "grab"), Err(Error::BadHandle { what: "grab" }));
         assert_eq!(arena.get_mut(new, "grab").copied(), Ok('b'));
+    }
+
+    #[test]
+    fn slots_are_made_when_they_are_needed_and_used_again() {
+        let mut arena = Arena::with_capacity(3);
+        assert!(arena.slots.is_empty() && arena.is_within(3) && !arena.is_within(2));
+        let first = arena.insert('a', "grab").unwrap();
+        arena.insert('b', "grab").unwrap();
+        arena.remove(first, "grab").unwrap();
+        arena.insert('c', "grab").unwrap();
+        assert_eq!(arena.slots.len(), 2);
+        assert_eq!(arena.iter().collect::<String>(), "cb");
     }
 
     #[test]

@@ -63,6 +63,7 @@
 //! | let it collide | [`ColliderDesc`], [`Shape`], [`Collider`], [`Impulse`] |
 //! | tear, cut and fold it | [`Cloth::tear_edge`], [`Cloth::cut`], [`Cloth::crease`], [`Event`], [`EventKind`] |
 //! | draw it | [`View`], [`Changes`]; [`Cloth::write_vertices`] with [`Stream`], [`Attribute`], [`VertexFormat`], [`WriteDesc`]; [`Cloth::write_indices`] with [`IndexFormat`] |
+//! | draw a finer mesh that follows it | [`Skin`] with [`SkinDesc`] |
 //! | pick and measure | [`Hit`], [`MassProperties`], [`Stats`], [`Stage`], [`LinkKind`], [`Clock`] |
 //! | save and compare it | [`Cloth::save`], [`Cloth::restore`], [`Cloth::state_hash`] |
 //! | handle errors | [`Error`], [`Result`] |
@@ -92,6 +93,8 @@ pub use crate::cloth::changes::Changes;
 pub use crate::cloth::desc::{AS_MANY_AGAIN, GridDesc, MeshDesc, PinMode};
 pub use crate::cloth::mass_properties::MassProperties;
 pub use crate::cloth::query::Hit;
+pub use crate::cloth::skin::Skin;
+pub use crate::cloth::skin::given_mesh::SkinDesc;
 pub use crate::cloth::vertex_stream::{
     ALL_VERTICES, Attribute, MAX_STREAMS, Stream, VertexFormat, WriteDesc,
 };
@@ -125,6 +128,8 @@ mod documents {
     struct MaterialsPage;
     #[doc = include_str!("../docs/manual/tearing-and-cutting.md")]
     struct TearingAndCuttingPage;
+    #[doc = include_str!("../docs/manual/skins.md")]
+    struct SkinsPage;
     #[doc = include_str!("../docs/manual/self-collision.md")]
     struct SelfCollisionPage;
     #[doc = include_str!("../docs/manual/guarantees.md")]

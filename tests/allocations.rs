@@ -1,9 +1,9 @@
 //! After creation, stepping, tearing within the reserve and reading allocate no memory.
 
-use muslin::glam::{Quat, Vec3};
+use muslin::glam::{Quat, Vec2, Vec3};
 use muslin::{
     Attribute, Cloth, ColliderDesc, GridDesc, Material, MeshDesc, PinMode, SelfCollision, Shape,
-    Stream, VertexFormat, Wind, WriteDesc,
+    Skin, Stream, VertexFormat, Wind, WriteDesc,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -387,4 +387,44 @@ fn attachments_anchors_and_moving_frames_allocate_nothing() {
         assert_eq!(used, 0);
         assert!(cloth.positions().len() > before, "nothing tore");
     }
+}
+
+#[test]
+fn the_update_of_a_skin_allocates_nothing_while_triangles_stay() {
+    let mut cloth =
+        Cloth::grid(&GridDesc { columns: 20, rows: 20, ..GridDesc::default() }).unwrap();
+    let desc = common::skins::sheet(60, 60, Vec3::ZERO, Vec2::new(0.95, -0.95));
+    let mut skin = Skin::new(&cloth, &desc).unwrap();
+    let mut words = vec![0_u32; 10 * skin.vertex_capacity() as usize];
+    let mut follow = |skin: &mut Skin, cloth: &Cloth, blend| {
+        skin.update(cloth).unwrap();
+        // SAFETY: every bit pattern is a valid `u8` and a valid `u32`.
+        let bytes = unsafe { words.align_to_mut::<u8>().1 };
+        let bytes = Cell::from_mut(bytes).as_slice_of_cells();
+        let stream = |attribute, first| Stream {
+            attribute,
+            format: VertexFormat::F32,
+            stride: 40,
+            bytes: &bytes[first..],
+        };
+        let streams = [
+            stream(Attribute::Position, 0),
+            stream(Attribute::Normal, 12),
+            stream(Attribute::Tangent, 24),
+        ];
+        skin.write_vertices(cloth, &streams, &WriteDesc { blend, ..WriteDesc::default() }).unwrap();
+    };
+    follow(&mut skin, &cloth, 0.5);
+    let allocations = allocation_count(|| {
+        for tick in 0..20 {
+            cloth.step(1);
+            follow(&mut skin, &cloth, tick as f32 * 0.05);
+        }
+    });
+    assert_eq!(allocations, 0);
+    // A tear may add vertices.
+    assert!(cloth.tear_edge(210, 211).unwrap());
+    follow(&mut skin, &cloth, 1.0);
+    assert!(skin.positions().len() > desc.positions.len());
+    assert_eq!(allocation_count(|| follow(&mut skin, &cloth, 0.5)), 0);
 }

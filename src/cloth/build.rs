@@ -53,6 +53,7 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::Pose;
 use crate::state::settings::Settings;
+use crate::state::violations::Violations;
 use crate::state::wind::Wind;
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
@@ -242,8 +243,7 @@ fn build_world(
         pieces: 0,
         triangle_capacity,
         reserve_reported: false,
-        over_stretched: 0,
-        over_stretch_reported: false,
+        violations: Violations::default(),
         substeps: settings.substeps,
         stiffness_step: 0.0,
         has_no_history: false,
@@ -359,6 +359,7 @@ impl World {
         self.constraints.reserve(opened_edges, self.capacity());
         self.tethers.reserve(self.capacity(), self.mesh.triangles.len());
         let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
+        scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
         scratch.piece_stack.reserve_total(triangles);
         scratch.pieces.reserve();
         scratch.piece_groups.reserve(triangles);
@@ -379,6 +380,7 @@ impl World {
             self.constraints.hinges.all.len(),
             capacity,
         );
+        self.scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
         let extra = max_opened_edges(&self.mesh, capacity.max(self.mesh.vertex_count()));
         self.scratch.damping =
             damping_scratch::DampingScratch::new(self.constraints.links.len(), extra);

@@ -42,6 +42,11 @@ impl InterpolatedSurface {
         }
     }
 
+    /// Makes an empty surface with room for as many particles.
+    pub fn with_same_capacity(&self) -> Self {
+        Self::with_capacity(self.particle_capacity)
+    }
+
     /// Returns the memory of the lists that are allocated on request [bytes].
     pub fn bytes(&self) -> usize {
         let position = if self.positions.x.capacity() == 0 { 0 } else { size_of::<[f32; 3]>() };
@@ -63,6 +68,12 @@ impl InterpolatedSurface {
         if let Some(tangents) = &mut self.tangents {
             tangents.invalidate_triangles();
         }
+    }
+
+    /// Returns the positions of the particles at `blend`, for which `update` was called last,
+    /// relative to the origin [m].
+    pub fn positions<'a>(&'a self, world: &'a World, blend: f32) -> &'a Columns {
+        if blend == 1.0 { &world.particles.x } else { &self.positions }
     }
 
     /// Computes the normals at `blend` (0: last tick, 1: current tick), and the tangents if `uvs`

@@ -33,6 +33,7 @@ mod postcard;
 pub(crate) mod query;
 mod ray_tree;
 mod save;
+pub(crate) mod skin;
 mod state_hash;
 mod tear;
 mod teleport;
@@ -374,7 +375,9 @@ impl Cloth {
     /// - tears, the most stretched edge first: for each, its split vertices, then the torn edge;
     /// - the exhausted reserve, if it cannot hold another tear;
     /// - detached pieces, ordered by their first triangle;
-    /// - links that pins or grabs hold past `max_stretch`.
+    /// - links that pins or grabs hold past `max_stretch`;
+    /// - particles inside colliders, held ones first;
+    /// - layers that cross.
     ///
     /// A cut adds the edges that it divided, in its order, then the edges that it opened, the
     /// vertices that it split, and the detached pieces.

@@ -65,6 +65,7 @@ impl Cloth {
                 } else {
                     world.reset_history();
                 }
+                world.warm_start.change_step(before.h, after.h);
                 world.refresh_soft_pin_masses();
             });
         }

@@ -46,6 +46,7 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::{Pose, check_pose};
 use crate::state::settings::Settings;
+use crate::state::violations::Violations;
 use crate::state::wind::Wind;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -92,8 +93,7 @@ struct SaveData<'a> {
     tick: u32,
     reserve_reported: bool,
     tether_slack: f32,
-    over_stretched: u32,
-    over_stretch_reported: bool,
+    violations: Violations,
     sleep: SleepTimer,
     substeps: u32,
     stiffness_step: f32,
@@ -155,8 +155,7 @@ impl Cloth {
             tick: world.tick,
             reserve_reported: world.reserve_reported,
             tether_slack: world.tether_slack,
-            over_stretched: world.over_stretched,
-            over_stretch_reported: world.over_stretch_reported,
+            violations: world.violations,
             sleep: world.sleep,
             substeps: world.substeps,
             stiffness_step: world.stiffness_step,
@@ -294,7 +293,8 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require(restore_attachments(&mut world, saved.attachments.into_owned()))?;
     restore_pins_and_grabs(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();
-    require(colliders.capacity() == usize::from(MAX_COLLIDERS))?;
+    require(colliders.is_within(MAX_COLLIDERS))?;
+    colliders.reserve();
     for body in colliders.iter_mut() {
         body.restore()?;
     }
@@ -306,8 +306,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     world.events.reserve();
     (world.time, world.tick, world.reserve_reported) =
         (saved.time, saved.tick, saved.reserve_reported);
-    world.over_stretched = saved.over_stretched;
-    world.over_stretch_reported = saved.over_stretch_reported;
+    world.violations = saved.violations;
     require(saved.tether_slack >= 0.0)?;
     world.label_pieces();
     world.rebuild_crack_tips();
@@ -352,8 +351,11 @@ fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
             && is_valid_origin(motion.center)
     };
     let are_sound = attachments.iter().all(is_sound);
-    let fits = are_sound && attachments.capacity() == usize::from(MAX_ATTACHMENTS);
+    let fits = are_sound && attachments.is_within(MAX_ATTACHMENTS);
     world.attachments = attachments;
+    if fits {
+        world.attachments.reserve();
+    }
     fits
 }
 
@@ -372,10 +374,11 @@ fn restore_pins_and_grabs(
     });
     let grabs_fit =
         grabs.iter().all(|grab| (grab.particle as usize) < count && grab.target.is_finite());
-    if !(pins_fit && pins.is_sorted() && grabs_fit && grabs.capacity() == usize::from(MAX_GRABS)) {
+    if !(pins_fit && pins.is_sorted() && grabs_fit && grabs.is_within(MAX_GRABS)) {
         return Err(bad());
     }
     (world.pins, world.grabs) = (pins, grabs);
+    world.grabs.reserve();
     world.pins.reserve(world.capacity());
     world.reserve_effective_mass();
     Ok(())

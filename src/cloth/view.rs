@@ -71,6 +71,15 @@ pub struct Stats {
     /// Number of links past [`Settings::max_stretch`](crate::Settings), which pins, grabs or
     /// anchors hold apart; 0 without that limit.
     pub over_stretched: u32,
+    /// Number of particles that pins, attachments or grabs hold more than 0.1 mm inside a collider.
+    /// Nothing is inside a triangle mesh, which has two sides.
+    pub held_inside: u32,
+    /// Number of other particles more than 0.1 mm inside a collider.
+    pub free_inside: u32,
+    /// Number of crossings: pairs of an edge of the cloth and a triangle that it passes through, as
+    /// found in the last tick; 0 without surface collision. A cloth without known crossings is
+    /// tested in parts, all of it in 16 ticks.
+    pub crossings: u32,
     /// Kinetic energy [J].
     pub kinetic_energy: f32,
     /// Speed of the fastest particle [m/s].
@@ -221,7 +230,10 @@ impl Cloth {
             blend: self.blend(),
             max_stretch,
             mean_stretch,
-            over_stretched: world.over_stretched,
+            over_stretched: world.violations.over_stretched.count,
+            held_inside: world.violations.held_inside.count,
+            free_inside: world.violations.free_inside.count,
+            crossings: world.violations.crossings.count,
             kinetic_energy,
             max_speed: with_float_env(|| stats::max_speed(world)),
             substeps: world.substeps,

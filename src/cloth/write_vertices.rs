@@ -20,6 +20,7 @@ use crate::solver::output::normals;
 use crate::solver::output::vertex_transform;
 use crate::solver::output::vertex_transform::{VertexBlock, VertexTransform};
 use crate::solver::stage::Stage;
+use crate::solver::world::World;
 use core::ops::Range;
 use glam::{Vec2, Vec3};
 
@@ -59,24 +60,8 @@ impl Cloth {
         flip: bool,
         base_vertex: u32,
     ) -> Result<()> {
-        let indices = self.indices();
-        let fits = buffer.len() >= indices.len() * format.size();
-        check(fits, "buffer", "hold all indices")?;
-        let last = u64::from(base_vertex) + self.positions().len() as u64 - 1;
-        check(
-            format == IndexFormat::U32 || last < u64::from(u16::MAX),
-            "index_format",
-            "be 32 bits when an index is above 65534",
-        )?;
-        check(last < u64::from(u32::MAX), "base_vertex", "leave every index below 4294967295")?;
-        let offset = |index: u32| index + base_vertex;
-        match format {
-            IndexFormat::U16 => {
-                write_triangles(buffer, indices, flip, |i| (offset(i) as u16).to_ne_bytes());
-            }
-            IndexFormat::U32 => write_triangles(buffer, indices, flip, |i| offset(i).to_ne_bytes()),
-        }
-        Ok(())
+        let vertices = self.positions().len();
+        write_indices(self.indices(), vertices, buffer, format, flip, base_vertex)
     }
 
     /// Writes vertices into the caller's buffers, each attribute with the format, position and
@@ -104,17 +89,7 @@ impl Cloth {
         let (needs_normals, needs_tangents) = (has(Attribute::Normal), has(Attribute::Tangent));
         let start = self.world.profile.start();
         let (world, outputs) = (&self.world, &mut self.outputs);
-        let transform = with_float_env(|| {
-            let origin = if desc.relative { Vec3::ZERO } else { world.origin };
-            let transform = vertex_transform::from_origin(desc.transform, origin);
-            VertexTransform::new(desc.blend, desc.offset, desc.flip_normals, transform)
-        });
-        let is_usable = transform.can_transform_directions() || !(needs_normals || needs_tangents);
-        check(
-            is_usable,
-            "transform",
-            "be one that can be inverted when normals or tangents are written",
-        )?;
+        let transform = write_transform(world, streams, desc)?;
         if needs_normals || needs_tangents || transform.is_offset() {
             world.threads.run_in_pool(world.particles.len(), || {
                 with_float_env(|| outputs.update_surface(world, desc.blend, needs_tangents));
@@ -136,6 +111,59 @@ impl Cloth {
         self.world.profile.add(Stage::Outputs, start);
         Ok(())
     }
+}
+
+/// Checks and writes the indices of a mesh with `vertices` vertices. See [`Cloth::write_indices`].
+pub(in crate::cloth) fn write_indices(
+    indices: &[u32],
+    vertices: usize,
+    buffer: &mut [u8],
+    format: IndexFormat,
+    flip: bool,
+    base_vertex: u32,
+) -> Result<()> {
+    let fits = buffer.len() >= indices.len() * format.size();
+    check(fits, "buffer", "hold all indices")?;
+    let last = u64::from(base_vertex) + vertices as u64 - 1;
+    check(
+        format == IndexFormat::U32 || last < u64::from(u16::MAX),
+        "index_format",
+        "be 32 bits when an index is above 65534",
+    )?;
+    check(last < u64::from(u32::MAX), "base_vertex", "leave every index below 4294967295")?;
+    let offset = |index: u32| index + base_vertex;
+    match format {
+        IndexFormat::U16 => {
+            write_triangles(buffer, indices, flip, |i| (offset(i) as u16).to_ne_bytes());
+        }
+        IndexFormat::U32 => write_triangles(buffer, indices, flip, |i| offset(i).to_ne_bytes()),
+    }
+    Ok(())
+}
+
+/// Returns the transform of a checked `desc`.
+///
+/// # Errors
+/// [`Error::BadValue`](crate::Error::BadValue) if normals or tangents are written and it cannot be
+/// inverted.
+pub(in crate::cloth) fn write_transform(
+    world: &World,
+    streams: &[Stream<'_>],
+    desc: &WriteDesc,
+) -> Result<VertexTransform> {
+    let transform = with_float_env(|| {
+        let origin = if desc.relative { Vec3::ZERO } else { world.origin };
+        let transform = vertex_transform::from_origin(desc.transform, origin);
+        VertexTransform::new(desc.blend, desc.offset, desc.flip_normals, transform)
+    });
+    let is_direction =
+        |stream: &Stream<'_>| matches!(stream.attribute, Attribute::Normal | Attribute::Tangent);
+    check(
+        transform.can_transform_directions() || !streams.iter().any(is_direction),
+        "transform",
+        "be one that can be inverted when normals or tangents are written",
+    )?;
+    Ok(transform)
 }
 
 /// Writes the indices of triangles, with reversed winding if `flip`.
@@ -243,15 +271,15 @@ fn blend(level: Level, x: &mut VertexBlock, last: &VertexBlock, count: usize, fa
 }
 
 /// Scratch buffers for one block of vertices.
-struct BlockScratch {
+pub(in crate::cloth) struct BlockScratch {
     /// The first three components to write.
-    vector: VertexBlock,
+    pub vector: VertexBlock,
     /// The fourth component.
-    w: FloatBlock,
+    pub w: FloatBlock,
     /// Components packed to 16 bits.
     halves: [HalfBlock; 4],
     /// Normals of the block.
-    normals: VertexBlock,
+    pub normals: VertexBlock,
     /// Positions of the last tick.
     last: VertexBlock,
 }
@@ -265,7 +293,7 @@ impl Default for BlockScratch {
 
 impl BlockScratch {
     /// Packs the computed attribute into the stream's format and writes it.
-    fn write(&mut self, level: Level, stream: &Stream<'_>, first: usize, count: usize) {
+    pub fn write(&mut self, level: Level, stream: &Stream<'_>, first: usize, count: usize) {
         let ([x, y, z], w) = (&mut self.vector, &mut self.w);
         let pack = match stream.format {
             VertexFormat::F32 => {

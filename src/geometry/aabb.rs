@@ -67,6 +67,16 @@ impl Aabb {
         other.low.cmpge(self.low).all() && other.high.cmple(self.high).all()
     }
 
+    /// Returns the square of the distance from `point` to the box [m²]; 0 inside.
+    pub fn distance_squared(&self, point: Vec3) -> f32 {
+        let outside = |low: f32, x: f32, high: f32| max(0.0, max(low - x, x - high));
+        let (low, high) = (self.low, self.high);
+        let x = outside(low.x, point.x, high.x);
+        let y = outside(low.y, point.y, high.y);
+        let z = outside(low.z, point.z, high.z);
+        x * x + y * y + z * z
+    }
+
     /// The center [m].
     pub fn center(&self) -> Vec3 {
         (self.low + self.high) * 0.5

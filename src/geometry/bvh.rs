@@ -18,6 +18,7 @@ use crate::geometry::aabb::Aabb;
 use crate::math::sort::{select_by, sort_by};
 use core::cmp::Ordering;
 use core::ops::Range;
+use glam::Vec3;
 
 /// Largest number of items in a leaf.
 const LEAF: usize = 4;
@@ -192,12 +193,27 @@ impl Bvh {
             }
         })
     }
+
+    /// Visits the items of all leaves whose bounds are within a distance of `point`, in the order
+    /// of the tree. `visit` returns the square of the distance [m²] to search from then on.
+    pub fn visit_near(&self, point: Vec3, mut squared: f32, visit: &mut dyn FnMut(u32) -> f32) {
+        let mut at = 0;
+        while let Some(node) = self.nodes.get(at) {
+            if node.bounds.distance_squared(point) > squared {
+                at = node.skip as usize;
+                continue;
+            }
+            for item in &self.order[node.items.start as usize..node.items.end as usize] {
+                squared = visit(*item);
+            }
+            at += 1;
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::Vec3;
 
     #[test]
     fn a_query_finds_every_overlapping_item_and_skips_most_others() {
@@ -218,6 +234,26 @@ mod tests {
                 assert!(!bounds.overlaps(&query) || found.contains(&(item as u32)));
             }
             assert!(found.len() < 150, "the query skips only {} of 200", 200 - found.len());
+        }
+    }
+    #[test]
+    fn a_search_for_the_nearest_item_finds_it_and_skips_most_others() {
+        let point = |i: i32, k: f32| {
+            let wave = |k: f32| (i as f32 * k).sin() * 3.0;
+            Vec3::new(wave(k), wave(2.3 * k), wave(0.7 * k))
+        };
+        let bounds: Vec<Aabb> = (0..200).map(|i| Aabb::from_points([point(i, 1.1)])).collect();
+        let tree = Bvh::build(&bounds);
+        for i in 0..50 {
+            let (from, mut nearest, mut visits) = (point(i, 0.9), f32::INFINITY, 0);
+            tree.visit_near(from, f32::INFINITY, &mut |item| {
+                visits += 1;
+                nearest = nearest.min(bounds[item as usize].center().distance_squared(from));
+                nearest
+            });
+            let all = bounds.iter().map(|bounds| bounds.center().distance_squared(from));
+            assert_eq!(nearest, all.fold(f32::INFINITY, f32::min));
+            assert!(visits < 150, "the search visits {visits} of 200");
         }
     }
 }

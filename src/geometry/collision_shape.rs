@@ -14,6 +14,7 @@ use crate::geometry::features::{BendHistogram, ShapeFeatures};
 use crate::geometry::heightfield::Heightfield;
 use crate::geometry::polyhedron::Polyhedron;
 use crate::geometry::primitives::{Capsule, Cuboid, HalfSpace, PlacedSphere, Sphere};
+use crate::geometry::signed_distance::SignedDistance;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::max;
 use glam::Vec3;
@@ -63,6 +64,23 @@ impl CollisionShape {
             | Self::TriangleSurface(_, features) => Some(&features.bends),
             Self::Heightfield(terrain) => Some(terrain.bends()),
         }
+    }
+
+    /// Returns how deep a point is inside [m]: 0 or less outside, beside a heightfield and for
+    /// triangle surfaces, which have two sides.
+    pub fn depth(&self, p: Vec3) -> f32 {
+        let distance = match self {
+            Self::HalfSpace(solid) => solid.signed_distance(p).0,
+            Self::Sphere(solid) => solid.signed_distance(p).0,
+            Self::Capsule(solid) => solid.signed_distance(p).0,
+            Self::Cuboid(solid, _) => solid.signed_distance(p).0,
+            Self::ConvexHull(body, _) => {
+                body.faces.iter().fold(f32::NEG_INFINITY, |most, face| max(face.distance(p), most))
+            }
+            Self::TriangleSurface(..) => 0.0,
+            Self::Heightfield(terrain) => terrain.signed_distance(p).map_or(0.0, |one| one.0),
+        };
+        -distance
     }
 
     /// Returns how far the center of a solid lies below a point of its surface along the outward

@@ -24,6 +24,8 @@ pub(crate) struct IrregularBends {
     pub element: Vec<u32>,
     /// Original area fraction of that element.
     pub area_fraction: Vec<f32>,
+    /// Multiplier of each bend along x, y and z [kg m]. Stage `Bend` resets it in each substep.
+    pub lambda: [Vec<f32>; 3],
     /// Bends of one colour and kind: 0 along the weft, 1 along the warp.
     pub groups: Vec<ColorGroup>,
     coloring: Coloring,
@@ -35,6 +37,7 @@ impl IrregularBends {
         let lists = [&mut self.a, &mut self.middle, &mut self.b, &mut self.element];
         lists.into_iter().for_each(|list| list.reserve_total(count));
         self.area_fraction.reserve_total(count);
+        self.lambda.iter_mut().for_each(|lambda| lambda.reserve_total(count));
         self.groups.reserve_total(MAX_GROUPS);
         self.coloring.reserve(count, particles);
     }
@@ -55,7 +58,8 @@ impl IrregularBends {
             let kind = if spec.direction == ThreadDirection::Weft { 0 } else { 1 };
             Some((kind, [links.a[link], mesh.vertex(left), links.b[link]]))
         };
-        let Self { a, middle, b, element: elements, area_fraction, groups, coloring } = self;
+        let Self { a, middle, b, element: elements, area_fraction, lambda, groups, coloring } =
+            self;
         let order = coloring.assign(bend_links.len(), mesh.vertex_count(), ends, groups);
         [&mut *a, middle, b, elements].into_iter().for_each(Vec::clear);
         area_fraction.clear();
@@ -68,10 +72,11 @@ impl IrregularBends {
             elements.push(element);
             area_fraction.push(fraction);
         }
+        lambda.iter_mut().for_each(|lambda| lambda.resize(a.len(), 0.0));
     }
 
     /// Allocated bytes.
     pub fn bytes(&self) -> usize {
-        5 * size_of::<u32>() * self.a.capacity() + self.coloring.bytes()
+        (5 * size_of::<u32>() + 3 * size_of::<f32>()) * self.a.capacity() + self.coloring.bytes()
     }
 }

@@ -105,6 +105,11 @@ impl Links {
         self.spec[link].kind
     }
 
+    /// Number of links for which there is memory.
+    pub fn capacity(&self) -> usize {
+        self.spec.capacity()
+    }
+
     /// Allocates for `capacity` more links.
     pub fn reserve(&mut self, capacity: usize) {
         let in_all = self.len() + capacity;

@@ -18,7 +18,8 @@
 //! │  ├─ SelfContacts  momentum of several pieces, particle collision, then momentum of all
 //! │  ├─ Contacts      colliders: narrow phase and response
 //! │  ├─ Hold          anchors: max distance and backstop
-//! │  ├─ SelfContacts  surface collision: contact solver, then non-crossing pass and colliders
+//! │  ├─ SelfContacts  surface collision: contact solver, held by colliders, and their friction, then
+//! │  │                non-crossing pass and colliders
 //! │  └─ Velocities    v ← (x - x_start) / h by BDF, then velocities of surface contacts, then
 //! │                   momentum of a free cloth that hits a collider
 //! ├─ Bend         folds (plasticity)         Colliders  colliders reach their end poses
@@ -26,6 +27,7 @@
 //! ├─ Tear         split vertices of overstretched links
 //! ├─ last pass    Limit ▶ colliders ▶ Hold ▶ SelfContacts and colliders ▶ report ▶ Guard
 //! │                                                       (with a strain limit or anchors)
+//! ├─ report       particles inside colliders, layers that cross
 //! └─ finish       targets reach the end of the tick, sleep timer
 //! ```
 //! Method: extended position-based dynamics with small substeps (Macklin, Müller, Chentanez,
@@ -45,7 +47,7 @@ use crate::solver::integrate::{
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::rebase;
 use crate::solver::self_collide::particle_contacts;
-use crate::solver::self_collide::surface::surface_stages;
+use crate::solver::self_collide::surface::{crossing_report, surface_stages};
 use crate::solver::stage::Stage;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{
@@ -144,6 +146,8 @@ pub(crate) fn tick(world: &mut World) -> bool {
         // Corrections of particles near the largest f32 overflow, so check once more.
         timed!(world, Guard, recover::restore_invalid(world));
     }
+    timed!(world, Contacts, collide::inside::report(world));
+    timed!(world, SelfContacts, crossing_report::report(world));
     targets::finish_tick(world);
     world.relax_stiffness_step();
     sleep::update_timer(world);

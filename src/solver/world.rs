@@ -57,6 +57,7 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::Pose;
 use crate::state::settings::Settings;
+use crate::state::violations::Violations;
 use crate::state::wind::Wind;
 use glam::Vec3;
 
@@ -159,10 +160,8 @@ pub(crate) struct World {
     pub triangle_capacity: usize,
     /// Whether an event has reported that the vertex reserve for tears is used up. Set by tears.
     pub reserve_reported: bool,
-    /// Number of links that exceeded `max_stretch` after the last tick. Written by `strain_limit`.
-    pub over_stretched: u32,
-    /// Whether an event has reported these links. Written by `strain_limit`.
-    pub over_stretch_reported: bool,
+    /// Guarantees that did not hold after the last tick. Written by the stages that check them.
+    pub violations: Violations,
     /// Number of substeps of the last tick, or of the current one while it runs; at first that of
     /// the settings. The history has the length of such a substep. Written by `time_step`.
     pub substeps: u32,

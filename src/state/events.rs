@@ -27,6 +27,17 @@ pub enum EventKind {
     /// A cut inserted `vertex` into the edge between `particle_a` and `particle_b`. If that edge is
     /// a UV seam, `vertex + 1` is the new vertex on its other side.
     EdgeDivided = 6,
+    /// Pins, attachments or grabs hold `count` particles inside a collider; `particle_a` is the
+    /// first of them. Reported once until none is inside.
+    HeldInside = 7,
+    /// `count` particles that nothing holds are inside a collider, because other colliders or held
+    /// cloth leave them no room, or because they were placed there; `particle_a` is the first of
+    /// them. Reported once until none is inside.
+    FreeInside = 8,
+    /// With surface collision, edges of the cloth pass through triangles of it: `count` pairs of
+    /// both. One of the edges is between `particle_a` and `particle_b`. Reported once until none
+    /// does.
+    LayersCross = 9,
 }
 
 /// Something that happened in a tick. Fields that the kind does not mention are 0.
@@ -65,7 +76,7 @@ pub(crate) const MAX_EVENTS: usize = 1024;
 ///
 /// Order by tick. Within a tick: recoveries; tears, the most overstretched edge first, each
 /// preceded by the vertices that it split; `ReserveUsedUp`; detached pieces in the order of their
-/// first triangles; `HeldApart`. A cut reports the divided edges in its order, the opened edges,
+/// first triangles; `HeldApart`; `HeldInside`; `FreeInside`; `LayersCross`. A cut reports the divided edges in its order, the opened edges,
 /// the split vertices, the pieces.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Events {

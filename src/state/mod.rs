@@ -12,4 +12,5 @@ pub(crate) mod particles;
 pub(crate) mod pins;
 pub(crate) mod pose;
 pub(crate) mod settings;
+pub(crate) mod violations;
 pub(crate) mod wind;

@@ -51,6 +51,7 @@ static uint64_t hash(void) {
 #define BEGIN_MuslinWind muslin_wind_init
 #define BEGIN_MuslinColliderDesc muslin_collider_desc_init
 #define BEGIN_MuslinWriteDesc muslin_write_desc_init
+#define BEGIN_MuslinSkinDesc muslin_skin_desc_init
 
 static void init_functions(void) {
   union {
@@ -62,6 +63,7 @@ static void init_functions(void) {
     MuslinColliderDesc collider;
     MuslinStream stream;
     MuslinWriteDesc write;
+    MuslinSkinDesc skin;
   } of;
   const uint32_t material = sizeof of.material, settings = sizeof of.settings;
   ROW(muslin_settings_init_sized, settings, VALUE, "`settings`", (NULL, sizeof of.settings));
@@ -76,6 +78,8 @@ static void init_functions(void) {
   ROW(muslin_stream_init_sized, struct_size, VALUE, "`struct_size`", (&of.stream, 4));
   ROW(muslin_write_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.write));
   ROW(muslin_write_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.write, 5000));
+  ROW(muslin_skin_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.skin));
+  ROW(muslin_skin_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.skin, 5));
   ROW(muslin_grid_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.grid, material, settings));
   ROW(muslin_grid_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.grid, 60, material, settings));
   ROW(muslin_grid_desc_init_sized, material_size, VALUE, "`material_size`", (&of.grid, sizeof of.grid, 2, settings));
@@ -398,6 +402,43 @@ static void views_statistics_and_streams(void) {
   CHECK(room[4] == 0 && indices[1] == 0);
 }
 
+static void skins(void) {
+  MuslinView view = {0}, coarse;
+  muslin_view_init(&view);
+  muslin_view_init(&coarse);
+  DONE(muslin_cloth_view(cloth, &coarse));
+  const MuslinSkin no_skin = {0};
+  MuslinSkin skin = {7};
+  BEGUN(MuslinSkinDesc, good, positions, coarse.positions);
+  good.vertex_count = coarse.vertex_count;
+  good.indices = coarse.indices;
+  good.index_count = coarse.index_count;
+  MuslinSkinDesc bad = good;
+  bad.smoothness = -1;
+  OF_NONE(muslin_skin_create, (none, &good, &skin));
+  ROW(muslin_skin_create, desc, VALUE, "`desc`", (cloth, NULL, &skin));
+  ROW(muslin_skin_create, desc, VALUE, "`smoothness`", (cloth, &bad, &skin));
+  ROW(muslin_skin_create, out_skin, VALUE, "`out_skin`", (cloth, &good, NULL));
+  CHECK(skin.id == 7);
+  DONE(muslin_skin_create(cloth, &good, &skin));
+  static float room[3 * 400];
+  MuslinStream stream = muslin_stream(MUSLIN_ATTRIBUTE_POSITION, MUSLIN_FORMAT_F32, room, 0, sizeof room);
+  MuslinStream short_one = stream;
+  short_one.size = 12;
+  BEGUN(MuslinWriteDesc, desc, blend, 2);
+  ROW(muslin_skin_write_vertices, skin, HANDLE, "`skin`", (no_skin, &stream, 1, NULL));
+  ROW(muslin_skin_write_vertices, streams, VALUE, "`streams`", (skin, NULL, 1, NULL));
+  ROW(muslin_skin_write_vertices, streams, SMALL, "`streams[0].size`", (skin, &short_one, 1, NULL));
+  ROW(muslin_skin_write_vertices, stream_count, VALUE, "`stream_count`", (skin, &stream, 0, NULL));
+  ROW(muslin_skin_write_vertices, desc, VALUE, "`blend`", (skin, &stream, 1, &desc));
+  CHECK(room[4] == 0);
+  ROW(muslin_skin_view, skin, HANDLE, "`skin`", (no_skin, &view));
+  ROW(muslin_skin_view, out_view, VALUE, "`out_view`", (skin, NULL));
+  ROW(muslin_skin_destroy, skin, HANDLE, "`skin`", (no_skin));
+  CHECK(view.positions == NULL);
+  DONE(muslin_skin_destroy(skin));
+}
+
 int main(void) {
   MuslinGridDesc desc;
   muslin_grid_desc_init(&desc);
@@ -412,6 +453,7 @@ int main(void) {
   TEST(rays_grabs_tears_and_cuts);
   TEST(colliders);
   TEST(views_statistics_and_streams);
+  TEST(skins);
   printf("%d rows\n", rows);
   DONE(muslin_cloth_destroy(cloth));
   return failures != 0;

@@ -157,6 +157,37 @@ void a_cloth_does_all_that_c_does() {
   CHECK(cloth.stats().value().particles == 400);
 }
 
+void a_skin_goes_with_its_owner_or_its_cloth() {
+  muslin::Cloth cloth = muslin::Cloth::grid(muslin::grid_desc()).value();
+  const MuslinView coarse = cloth.view().value();
+  MuslinSkinDesc desc = muslin::skin_desc();
+  desc.positions = coarse.positions;
+  desc.vertex_count = coarse.vertex_count;
+  desc.indices = coarse.indices;
+  desc.index_count = coarse.index_count;
+  MuslinSkin handle{};
+  {
+    muslin::Skin first = cloth.skin(desc).value();
+    handle = first.handle();
+    muslin::Skin second = std::move(first);
+    CHECK(!first && second && first.view().status() == MUSLIN_STATUS_BAD_HANDLE);
+    cloth.step(3).value();
+    const MuslinView view = second.view().value();
+    CHECK(std::memcmp(view.positions, cloth.view().value().positions, 12 * view.vertex_count) == 0);
+    std::vector<float> written(3 * view.vertex_count);
+    const MuslinStream streams[] = {muslin_stream(MUSLIN_ATTRIBUTE_POSITION, MUSLIN_FORMAT_F32,
+                                                  written.data(), 0, 4 * written.size())};
+    second.write_vertices(streams, muslin::write_desc()).value();
+    CHECK(std::memcmp(written.data(), view.positions, 4 * written.size()) == 0);
+  }
+  MuslinView view;
+  muslin_view_init(&view);
+  CHECK(muslin_skin_view(handle, &view) == MUSLIN_STATUS_BAD_HANDLE);
+  muslin::Skin late = cloth.skin(desc).value();
+  cloth = muslin::Cloth();
+  CHECK(late.view().status() == MUSLIN_STATUS_BAD_HANDLE);
+}
+
 void a_cloth_goes_with_its_owner() {
   MuslinCloth handle{};
   {
@@ -194,6 +225,7 @@ void refusals_say_why() {
 
 int main() {
   a_cloth_does_all_that_c_does();
+  a_skin_goes_with_its_owner_or_its_cloth();
   a_cloth_goes_with_its_owner();
   refusals_say_why();
   std::printf("%s the wrapper does all that C does\n", failures == 0 ? "  ok" : "FAIL");

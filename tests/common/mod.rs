@@ -7,6 +7,7 @@ pub mod elastica;
 pub mod folding;
 pub mod garments;
 pub mod shapes;
+pub mod skins;
 pub mod strip;
 
 use muslin::glam::Vec3;

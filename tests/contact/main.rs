@@ -31,3 +31,4 @@ mod small_and_fast_bodies;
 mod split_separation;
 mod surface_collision;
 mod untangling;
+mod violations;

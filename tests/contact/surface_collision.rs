@@ -104,7 +104,7 @@ fn stacked_sheets_rest_one_thickness_apart() {
     println!("heights {heights:?}");
     for pair in heights.windows(2) {
         let gap = (pair[1] - pair[0]) / 0.002;
-        assert!((0.8..1.5).contains(&gap), "{gap} thicknesses");
+        assert!((0.98..1.02).contains(&gap), "{gap} thicknesses");
     }
     assert!(rms_speed(&cloth) < 1.0e-3, "{} m/s", rms_speed(&cloth));
 }

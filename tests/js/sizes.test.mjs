@@ -11,10 +11,10 @@ const read = (name) => readFile(new URL(name, home));
 const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** The largest size of each file with gzip [B]. */
-const MAX_SIZES = { "raw_bg.wasm": 384_000, "plain_bg.wasm": 350_500, "code.js": 446_000 };
+const MAX_SIZES = { "raw_bg.wasm": 411_000, "plain_bg.wasm": 376_000, "code.js": 479_000 };
 
 /** The largest size of all scripts that every page loads, with gzip [B]. */
-const MAX_SCRIPT_SIZE = 13_000;
+const MAX_SCRIPT_SIZE = 14_600;
 
 /** Scripts that only some pages load. */
 const OPTIONAL = /^(bytes|inline|no-wasm|heap|code|three|three-with|pointers|react)\.js$/;

@@ -20,6 +20,8 @@ import init, {
   type Preset,
   type Quat,
   type Settings,
+  type Skin,
+  type SkinDesc,
   type Stage,
   type Stats,
   type Stream,
@@ -205,6 +207,11 @@ function numberOf(event: ClothEvent): number {
       return event.tick + event.position[0];
     case "held-apart":
       return event.particleA + event.particleB + event.count;
+    case "held-inside":
+    case "free-inside":
+      return event.particleA + event.count;
+    case "layers-cross":
+      return event.particleA + event.particleB + event.count;
     case "edge-divided":
       return event.particleA + event.particleB + event.vertex;
   }
@@ -242,3 +249,23 @@ cloth.writeIndices(new Float32Array(3));
 export { clocks, floats, geometry, hash, held, isFreed, kept, loaded, mass, material, moved, other };
 export { position, pulls, ready, repaired, revisions, seconds, settings, sizes, sum, versionText, tore, velocity, where, integers, wind };
 export { writtenIndices, writtenVertices };
+
+const skinDesc: SkinDesc = { positions: new Float32Array(9), indices: [0, 1, 2], smoothness: 0.5 };
+const skin: Skin = cloth.skin(skinDesc);
+const skinLists: [Float32Array, Float32Array, Float32Array, Uint32Array, Uint32Array, Uint8Array] = [
+  skin.positions,
+  skin.normals,
+  skin.uvs,
+  skin.indices,
+  skin.sourceVertices,
+  skin.frayed,
+];
+const skinCounts: [number, number, number] = [
+  skin.vertexCapacity,
+  skin.topologyRevision,
+  skin.write([{ attribute: "position", buffer: new Float32Array(9) }], { blend: 0.5 }),
+];
+// @ts-expect-error: a skin has positions
+cloth.skin({ indices: [0, 1, 2] });
+skin.free();
+const skinIsFreed: boolean = skin.isFreed;

@@ -7,6 +7,8 @@ mod change_tracking;
 mod cutting;
 mod garments;
 mod mesh_repair;
+mod skin_tears;
+mod skins;
 mod tear_propagation;
 mod tearing;
 mod topology_snapshots;

@@ -8,6 +8,7 @@ mod closed_forms;
 mod conservation;
 mod crumpling;
 mod drape;
+mod energy_gains;
 mod far_from_zero;
 mod fold_hardening;
 mod frame_poses;

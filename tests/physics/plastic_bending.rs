@@ -24,7 +24,7 @@ fn a_fold_keeps_the_angle_beyond_the_yield_angle() {
                 "P4 {nodes} nodes, folded by {:.1}°: remains {remaining:.2}°, reference {exact:.2}°, again {again:.2}°",
                 angle.to_degrees()
             );
-            let tolerance = if exact == 0.0 { 1.0 } else { 2.0 };
+            let tolerance = if exact == 0.0 { 0.1 } else { 2.0 };
             if (remaining - exact).abs() > tolerance
                 || (again - remaining).abs() > 2.0
                 || remaining < last

@@ -1,60 +1,72 @@
-//! Table of all cloths: generational slots, each cloth behind a lock of its own.
+//! Tables of all cloths and of all skins: generational slots, each cloth behind a lock of its own.
 //!
 //! ```text
 //! handle = generation << 32 | (slot + 1)      0 is no handle
+//! cloth ──▶ lock ─▶ Cloth, its skins          skin ──▶ lock of its cloth
 //! ```
 //!
-//! Reads and writes the global table.
-//! Invariant: a handle never refers to another cloth than the one it was made for; a lock is only
-//! tried, never waited for.
+//! Reads and writes the global tables.
+//! Invariant: a handle never refers to another cloth or skin than the one it was made for; the lock
+//! of a cloth is only tried, never waited for; the skins of a destroyed cloth are gone.
 
 use crate::ffi::panic_guard::run_guarded;
 use crate::log::{self, MUSLIN_LOG_INFO};
 use crate::status::{CallError, MuslinStatus, Result};
-use crate::types::value::MuslinCloth;
-use muslin_core::Cloth;
+use crate::types::value::{MuslinCloth, MuslinSkin};
+use muslin_core::{Cloth, Skin};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
+/// A cloth with its skins, each with the number of its handle.
+struct Entry {
+    cloth: Cloth,
+    skins: Vec<(u64, Skin)>,
+}
+
 /// A cloth, or `None` if another thread destroyed it after its slot was looked up.
-type SharedCloth = Arc<Mutex<Option<Cloth>>>;
+type SharedCloth = Arc<Mutex<Option<Entry>>>;
 
 struct Slot {
     generation: u32,
     cloth: Option<SharedCloth>,
 }
 
-/// All slots, and the indices of the free ones.
+/// All slots, and the indices of the free ones. The slot of a skin holds its cloth.
 struct Registry {
     slots: Vec<Slot>,
     free: Vec<u32>,
 }
 
 impl Registry {
-    fn insert(&mut self, cloth: Cloth) -> Result<MuslinCloth> {
+    const fn new() -> Self {
+        Self { slots: Vec::new(), free: Vec::new() }
+    }
+
+    /// Stores a cloth in a free slot and returns its handle. `what` names the object in the error.
+    fn insert(&mut self, cloth: SharedCloth, what: &str) -> Result<u64> {
         let at = match self.free.pop() {
             Some(at) => at,
             None => {
                 let full =
-                    || CallError::new(MuslinStatus::Full, "no room is left for another cloth");
-                let at = u32::try_from(self.slots.len()).map_err(|_| full())?;
+                    |_| CallError::new(MuslinStatus::Full, format!("no room is left for {what}"));
+                let at = u32::try_from(self.slots.len()).map_err(full)?;
                 self.slots.push(Slot { generation: 1, cloth: None });
                 at
             }
         };
         let slot = &mut self.slots[at as usize];
-        slot.cloth = Some(Arc::new(Mutex::new(Some(cloth))));
-        Ok(MuslinCloth { id: u64::from(slot.generation) << 32 | (u64::from(at) + 1) })
+        slot.cloth = Some(cloth);
+        Ok(u64::from(slot.generation) << 32 | (u64::from(at) + 1))
     }
 
-    fn find(&self, cloth: MuslinCloth) -> Option<&SharedCloth> {
-        let at = (cloth.id & u64::from(u32::MAX)).checked_sub(1)?;
+    fn find(&self, id: u64) -> Option<&SharedCloth> {
+        let at = (id & u64::from(u32::MAX)).checked_sub(1)?;
         let slot = self.slots.get(usize::try_from(at).ok()?)?;
-        (u64::from(slot.generation) == cloth.id >> 32).then_some(slot.cloth.as_ref()).flatten()
+        (u64::from(slot.generation) == id >> 32).then_some(slot.cloth.as_ref()).flatten()
     }
 
     /// Makes the handle stale. A slot that has used all of its generations stays empty.
-    fn remove(&mut self, cloth: MuslinCloth) {
-        let at = (cloth.id & u64::from(u32::MAX)) as u32 - 1;
+    fn remove(&mut self, id: u64) {
+        let at = (id & u64::from(u32::MAX)) as u32 - 1;
         let slot = &mut self.slots[at as usize];
         slot.cloth = None;
         if let Some(next) = slot.generation.checked_add(1) {
@@ -64,24 +76,78 @@ impl Registry {
     }
 }
 
-static REGISTRY: Mutex<Registry> = Mutex::new(Registry { slots: Vec::new(), free: Vec::new() });
+static CLOTHS: Mutex<Registry> = Mutex::new(Registry::new());
+static SKINS: Mutex<Registry> = Mutex::new(Registry::new());
 
-/// Locks the table. Callers hold the lock only briefly and never wait while holding it.
-fn registry() -> MutexGuard<'static, Registry> {
-    REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
+/// Locks a table. Callers hold the lock only briefly and never wait while holding it.
+fn locked(table: &'static Mutex<Registry>) -> MutexGuard<'static, Registry> {
+    table.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn find_cloth(cloth: MuslinCloth) -> Result<SharedCloth> {
-    registry().find(cloth).cloned().ok_or_else(CallError::bad_cloth)
+    locked(&CLOTHS).find(cloth.id).cloned().ok_or_else(CallError::bad_cloth)
+}
+
+fn find_skin(skin: MuslinSkin) -> Result<SharedCloth> {
+    locked(&SKINS).find(skin.id).cloned().ok_or_else(CallError::bad_skin)
 }
 
 fn busy() -> CallError {
     CallError::new(MuslinStatus::Busy, "`cloth` must not be in use on another thread")
 }
 
+fn try_lock(shared: &SharedCloth) -> Result<MutexGuard<'_, Option<Entry>>> {
+    match shared.try_lock() {
+        Ok(locked) => Ok(locked),
+        Err(TryLockError::WouldBlock) => Err(busy()),
+        Err(TryLockError::Poisoned(_)) => Err(CallError::poisoned_cloth()),
+    }
+}
+
 /// Stores a new cloth and returns its handle.
 pub fn insert(cloth: Cloth) -> Result<MuslinCloth> {
-    registry().insert(cloth)
+    let shared = Arc::new(Mutex::new(Some(Entry { cloth, skins: Vec::new() })));
+    Ok(MuslinCloth { id: locked(&CLOTHS).insert(shared, "another cloth")? })
+}
+
+/// Makes a skin of a cloth, stores it and returns its handle.
+pub fn insert_skin(
+    cloth: MuslinCloth,
+    make: impl FnOnce(&Cloth) -> Result<Skin>,
+) -> Result<MuslinSkin> {
+    let shared = find_cloth(cloth)?;
+    let mut entry = try_lock(&shared)?;
+    let entry = entry.as_mut().ok_or_else(CallError::bad_cloth)?;
+    let skin = make(&entry.cloth)?;
+    let id = locked(&SKINS).insert(Arc::clone(&shared), "another skin")?;
+    entry.skins.push((id, skin));
+    Ok(MuslinSkin { id })
+}
+
+/// Runs `call` with exclusive access to a skin and its cloth. A panic makes the cloth unusable.
+pub fn with_skin(skin: MuslinSkin, call: impl FnOnce(&mut Skin, &Cloth) -> Result) -> MuslinStatus {
+    run_guarded(|| {
+        let shared = find_skin(skin)?;
+        let mut entry = try_lock(&shared)?;
+        let Entry { cloth, skins } = entry.as_mut().ok_or_else(CallError::bad_skin)?;
+        let found = skins.iter_mut().find(|(id, _)| *id == skin.id);
+        let (_, skin) = found.ok_or_else(CallError::bad_skin)?;
+        call(skin, cloth)
+    })
+}
+
+/// Destroys a skin.
+pub fn destroy_skin(skin: MuslinSkin) -> MuslinStatus {
+    run_guarded(|| {
+        let shared = find_skin(skin)?;
+        let mut entry = try_lock(&shared)?;
+        let entry = entry.as_mut().ok_or_else(CallError::bad_skin)?;
+        let at = entry.skins.iter().position(|(id, _)| *id == skin.id);
+        let destroyed = entry.skins.swap_remove(at.ok_or_else(CallError::bad_skin)?);
+        locked(&SKINS).remove(skin.id);
+        drop(destroyed);
+        Ok(())
+    })
 }
 
 /// Runs `call` with exclusive access to a cloth. A panic makes the cloth unusable.
@@ -95,26 +161,24 @@ pub fn with_cloth(cloth: MuslinCloth, call: impl FnOnce(&mut Cloth) -> Result) -
 /// The part of `with_cloth` that is compiled once, not once per caller.
 fn with_cloth_dyn(cloth: MuslinCloth, call: &mut dyn FnMut(&mut Cloth) -> Result) -> Result {
     let shared = find_cloth(cloth)?;
-    let mut locked = match shared.try_lock() {
-        Ok(locked) => locked,
-        Err(TryLockError::WouldBlock) => return Err(busy()),
-        Err(TryLockError::Poisoned(_)) => return Err(CallError::poisoned_cloth()),
-    };
-    call(locked.as_mut().ok_or_else(CallError::bad_cloth)?)
+    let mut entry = try_lock(&shared)?;
+    call(&mut entry.as_mut().ok_or_else(CallError::bad_cloth)?.cloth)
 }
 
-/// Destroys a cloth, also one that a panic made unusable.
+/// Destroys a cloth and its skins, also one that a panic made unusable.
 pub fn destroy(cloth: MuslinCloth) -> MuslinStatus {
     let status = run_guarded(|| {
         let shared = find_cloth(cloth)?;
-        let mut locked = match shared.try_lock() {
-            Ok(locked) => locked,
+        let mut entry = match shared.try_lock() {
+            Ok(entry) => entry,
             Err(TryLockError::WouldBlock) => return Err(busy()),
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
         };
-        let destroyed = locked.take().ok_or_else(CallError::bad_cloth)?;
-        registry().remove(cloth);
-        drop(locked);
+        let destroyed = entry.take().ok_or_else(CallError::bad_cloth)?;
+        locked(&CLOTHS).remove(cloth.id);
+        let mut skins = locked(&SKINS);
+        destroyed.skins.iter().for_each(|(id, _)| skins.remove(*id));
+        drop((entry, skins));
         drop(destroyed);
         Ok(())
     });
@@ -127,11 +191,17 @@ pub fn destroy(cloth: MuslinCloth) -> MuslinStatus {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use muslin_core::GridDesc;
+    use muslin_core::{GridDesc, SkinDesc};
 
     fn small_cloth() -> MuslinCloth {
         let desc = GridDesc { columns: 3, rows: 3, ..GridDesc::default() };
         insert(Cloth::grid(&desc).unwrap()).unwrap()
+    }
+
+    /// Makes a skin with the triangles of its cloth.
+    fn own_skin(cloth: &Cloth) -> Result<Skin> {
+        let (positions, indices) = (cloth.positions().to_vec(), cloth.indices().to_vec());
+        Ok(Skin::new(cloth, &SkinDesc { positions, indices, ..SkinDesc::default() })?)
     }
 
     #[test]
@@ -160,16 +230,47 @@ mod tests {
 
     #[test]
     fn a_slot_without_free_generations_is_not_reused() {
-        let mut registry = Registry { slots: Vec::new(), free: Vec::new() };
-        let cloth = || Cloth::grid(&GridDesc { columns: 2, rows: 2, ..GridDesc::default() });
-        let first = registry.insert(cloth().unwrap()).unwrap();
+        let mut registry = Registry::new();
+        let shared = || Arc::new(Mutex::new(None));
+        let first = registry.insert(shared(), "another cloth").unwrap();
         registry.remove(first);
         registry.slots[0].generation = u32::MAX;
-        let last = registry.insert(cloth().unwrap()).unwrap();
-        assert_eq!(last.id, u64::from(u32::MAX) << 32 | 1);
+        let last = registry.insert(shared(), "another cloth").unwrap();
+        assert_eq!(last, u64::from(u32::MAX) << 32 | 1);
         registry.remove(last);
-        let next = registry.insert(cloth().unwrap()).unwrap();
-        assert_eq!(next.id, 1 << 32 | 2);
+        let next = registry.insert(shared(), "another cloth").unwrap();
+        assert_eq!(next, 1 << 32 | 2);
         assert!(registry.find(last).is_none() && registry.find(first).is_none());
+    }
+
+    #[test]
+    fn the_skins_of_a_destroyed_cloth_are_gone() {
+        let (cloth, other) = (small_cloth(), small_cloth());
+        let skins = [cloth, cloth, other].map(|cloth| insert_skin(cloth, own_skin).unwrap());
+        assert_eq!(destroy_skin(skins[0]), MuslinStatus::Ok);
+        assert_eq!(destroy_skin(skins[0]), MuslinStatus::BadHandle);
+        assert_eq!(with_skin(skins[1], |_, _| Ok(())), MuslinStatus::Ok);
+        assert_eq!(destroy(cloth), MuslinStatus::Ok);
+        assert_eq!(with_skin(skins[1], |_, _| Ok(())), MuslinStatus::BadHandle);
+        assert_eq!(
+            insert_skin(cloth, own_skin).map_err(|e| e.status),
+            Err(MuslinStatus::BadHandle)
+        );
+        assert_eq!(with_skin(skins[2], |_, _| Ok(())), MuslinStatus::Ok);
+        assert_eq!(destroy(other), MuslinStatus::Ok);
+        assert_eq!(destroy_skin(skins[2]), MuslinStatus::BadHandle);
+    }
+
+    #[test]
+    fn a_skin_of_a_cloth_in_use_is_busy() {
+        let cloth = small_cloth();
+        let skin = insert_skin(cloth, own_skin).unwrap();
+        let status = with_cloth(cloth, |_| {
+            assert_eq!(with_skin(skin, |_, _| Ok(())), MuslinStatus::Busy);
+            assert_eq!(destroy_skin(skin), MuslinStatus::Busy);
+            Ok(())
+        });
+        assert_eq!(status, MuslinStatus::Ok);
+        assert_eq!(destroy(cloth), MuslinStatus::Ok);
     }
 }

@@ -96,6 +96,11 @@ impl CallError {
         Self::new(MuslinStatus::BadHandle, "`cloth` must be a live cloth")
     }
 
+    /// The error of a stale, made-up or zero handle of a skin.
+    pub fn bad_skin() -> Self {
+        Self::new(MuslinStatus::BadHandle, "`skin` must be a live skin of a live cloth")
+    }
+
     /// The error of a call that panicked.
     pub fn panicked(what: &str) -> Self {
         Self::new(MuslinStatus::Panicked, format!("a bug in Muslin interrupted the call: {what}"))

@@ -12,6 +12,7 @@ import type {
 } from "./fields.js";
 import type { Attachment, Collider, Grab } from "./handles.js";
 import type { Changes, ClothEvent, ClothMass, Hit, MeshReport, Stats } from "./reports.js";
+import type { Skin, SkinDesc } from "./skin.js";
 import type { Stream, WriteDesc } from "./write.js";
 
 /**
@@ -256,6 +257,30 @@ export class Cloth {
     buffer: Uint16Array | Uint32Array,
     options?: { flip?: boolean; baseVertex?: number },
   ): number;
+
+  /**
+   * Binds a render mesh, usually finer than the cloth, to the cloth as it is now.
+   *
+   * Each vertex is bound to the nearest point of the cloth, at its distance from it, and moves along
+   * with the cloth on a surface that is curved over each triangle. Make the skin while the cloth has
+   * the shape that the mesh was modelled in, usually before the first tick: on a folded cloth the
+   * nearest layer may be another one.
+   *
+   * A triangle of the skin that a tear or cut would stretch goes with one side, that of its center.
+   * Its corners on the other side are copied, so the number of vertices may grow. `reset()` restores
+   * the given mesh.
+   *
+   * @throws if a field is wrong, if a vertex is too far from the cloth, or if there is not enough
+   * memory
+   *
+   * @example
+   * ```js
+   * const skin = cloth.skin({ positions, indices, uvs });
+   * cloth.advance(1 / 60);
+   * draw(skin.positions, skin.normals, skin.indices);
+   * ```
+   */
+  skin(desc: SkinDesc): Skin;
 
   // Particles
 

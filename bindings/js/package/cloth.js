@@ -13,7 +13,7 @@ import {
   toUint8Array,
   toVector,
 } from "./check.js";
-import { isTrap, requireMemory } from "./memory.js";
+import { isTrap, requireMemory, viewOf } from "./memory.js";
 import { setState, stateOf } from "./state.js";
 import { countCloth, discountCloth } from "./usage.js";
 import * as fields from "./fields.js";
@@ -27,6 +27,7 @@ import {
   readStats,
   withMassOfCloth,
 } from "./reports.js";
+import { makeSkin } from "./skin.js";
 import { writeIndices, writeVertices } from "./write.js";
 
 const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
@@ -62,16 +63,9 @@ function rawOf(cloth) {
   return live;
 }
 
-/**
- * Returns a view of the module's memory: the last one if memory, address and length are still the
- * same.
- */
-function viewOf(cloth, name, Kind, address, length) {
-  const { views } = stateOf(cloth, "Cloth");
-  const { buffer } = requireMemory(); // read here: the call that returned `address` may have grown the memory
-  const last = views[name];
-  const fits = last?.buffer === buffer && last.byteOffset === address && last.length === length;
-  return fits ? last : (views[name] = new Kind(buffer, address, length));
+/** Returns a view of the module's memory, see `viewOf`. */
+function viewOfCloth(cloth, name, Kind, address, length) {
+  return viewOf(stateOf(cloth, "Cloth").views, name, Kind, address, length);
 }
 
 export class Cloth {
@@ -190,12 +184,12 @@ export class Cloth {
 
   get positions() {
     const live = rawOf(this);
-    return viewOf(this, "positions", Float32Array, live.positions_ptr(), 3 * live.vertex_count());
+    return viewOfCloth(this, "positions", Float32Array, live.positions_ptr(), 3 * live.vertex_count());
   }
 
   get relativePositions() {
     const live = rawOf(this);
-    return viewOf(this, "relative", Float32Array, live.relative_positions_ptr(), 3 * live.vertex_count());
+    return viewOfCloth(this, "relative", Float32Array, live.relative_positions_ptr(), 3 * live.vertex_count());
   }
 
   get origin() {
@@ -204,32 +198,32 @@ export class Cloth {
 
   get normals() {
     const live = rawOf(this);
-    return viewOf(this, "normals", Float32Array, live.normals_ptr(), 3 * live.vertex_count());
+    return viewOfCloth(this, "normals", Float32Array, live.normals_ptr(), 3 * live.vertex_count());
   }
 
   get uvs() {
     const live = rawOf(this);
-    return viewOf(this, "uvs", Float32Array, live.uvs_ptr(), 2 * live.vertex_count());
+    return viewOfCloth(this, "uvs", Float32Array, live.uvs_ptr(), 2 * live.vertex_count());
   }
 
   get indices() {
     const live = rawOf(this);
-    return viewOf(this, "indices", Uint32Array, live.indices_ptr(), live.index_count());
+    return viewOfCloth(this, "indices", Uint32Array, live.indices_ptr(), live.index_count());
   }
 
   get sourceVertices() {
     const live = rawOf(this);
-    return viewOf(this, "sources", Uint32Array, live.source_vertices_ptr(), live.vertex_count());
+    return viewOfCloth(this, "sources", Uint32Array, live.source_vertices_ptr(), live.vertex_count());
   }
 
   get frayed() {
     const live = rawOf(this);
-    return viewOf(this, "frayed", Uint8Array, live.frayed_ptr(), live.vertex_count());
+    return viewOfCloth(this, "frayed", Uint8Array, live.frayed_ptr(), live.vertex_count());
   }
 
   get vertexParticles() {
     const live = rawOf(this);
-    return viewOf(this, "particles", Uint32Array, live.vertex_particles_ptr(), live.vertex_count());
+    return viewOfCloth(this, "particles", Uint32Array, live.vertex_particles_ptr(), live.vertex_count());
   }
 
   get meshReport() {
@@ -249,6 +243,10 @@ export class Cloth {
 
   writeIndices(buffer, options = {}) {
     return writeIndices(rawOf(this), buffer, options);
+  }
+
+  skin(desc) {
+    return makeSkin(() => rawOf(this), desc);
   }
 
   get vertexCapacity() {

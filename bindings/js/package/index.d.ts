@@ -27,6 +27,7 @@ export { Cloth } from "./cloth.js";
 export type * from "./fields.js";
 export type * from "./handles.js";
 export type * from "./reports.js";
+export type * from "./skin.js";
 export type * from "./write.js";
 
 /**

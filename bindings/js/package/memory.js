@@ -37,6 +37,17 @@ export function requireMemory() {
 }
 
 /**
+ * Returns a view of the module's memory: the one of this name in `views` if memory, address and
+ * length are still the same.
+ */
+export function viewOf(views, name, Kind, address, length) {
+  const { buffer } = requireMemory(); // read here: the call that returned `address` may have grown the memory
+  const last = views[name];
+  const fits = last?.buffer === buffer && last.byteOffset === address && last.length === length;
+  return fits ? last : (views[name] = new Kind(buffer, address, length));
+}
+
+/**
  * Returns whether a typed array is a view of the module's own memory, which moves when it grows.
  */
 export function isModuleMemory(list) {

@@ -9,6 +9,9 @@ const EVENT_KINDS = [
   "reserve-used-up",
   "held-apart",
   "edge-divided",
+  "held-inside",
+  "free-inside",
+  "layers-cross",
 ];
 
 /** The fields of each kind of event besides kind, tick and position. */
@@ -20,6 +23,9 @@ const FIELDS_OF_KIND = [
   [],
   ["particleA", "particleB", "count"],
   ["particleA", "particleB", "vertex"],
+  ["particleA", "count"],
+  ["particleA", "count"],
+  ["particleA", "particleB", "count"],
 ];
 
 /** The fields in the list behind kind, tick and position. */
@@ -42,6 +48,9 @@ const STATS = [
   "asleep",
   "maxSpeed",
   "substeps",
+  "heldInside",
+  "freeInside",
+  "crossings",
   "bytes",
 ];
 

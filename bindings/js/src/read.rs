@@ -138,7 +138,7 @@ impl RawCloth {
         list.numbers(&[stats.blend, stats.max_stretch, stats.mean_stretch, stats.kinetic_energy]);
         list.counts(&[stats.over_stretched, u32::from(stats.asleep)]);
         list.numbers(&[stats.max_speed]);
-        list.counts(&[stats.substeps]);
+        list.counts(&[stats.substeps, stats.held_inside, stats.free_inside, stats.crossings]);
         list.0.push(stats.bytes as f64);
         list.numbers(&stats.seconds);
         list.0

@@ -12,7 +12,7 @@ use crate::error::{Result, to_js_error};
 use crate::packing::{Reader, Writer};
 use core::cell::Cell;
 use glam::{Affine3, Mat3, Vec3};
-use muslin::{Attribute, IndexFormat, MAX_STREAMS, Stream, VertexFormat, WriteDesc};
+use muslin::{Attribute, Cloth, IndexFormat, MAX_STREAMS, Stream, VertexFormat, WriteDesc};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Alignment of the staging memory [B]. An offset in it is aligned as the same offset in a buffer
@@ -35,6 +35,32 @@ impl RawCloth {
     /// Writes vertices into the staging memory. Each stream is attribute, format, stride, offset in
     /// the staging memory and length [B].
     pub fn write_vertices(&mut self, streams: &[f64], desc: &[f64]) -> Result<()> {
+        self.write_staged(streams, desc, &mut |cloth, streams, desc| {
+            cloth.write_vertices(streams, desc)
+        })
+    }
+
+    /// Writes 16-bit or 32-bit indices to the start of the staging memory.
+    pub fn write_indices(&mut self, is_wide: bool, flip: bool, base_vertex: u32) -> Result<()> {
+        let format = if is_wide { IndexFormat::U32 } else { IndexFormat::U16 };
+        let start = self.staging_start();
+        let bytes = &mut self.staging[start..];
+        self.cloth.write_indices(bytes, format, flip, base_vertex).map_err(to_js_error)
+    }
+}
+
+/// Writes the streams of the cloth or of a skin.
+type WriteStreams<'a> =
+    &'a mut dyn FnMut(&mut Cloth, &[Stream<'_>], &WriteDesc) -> muslin::Result<()>;
+
+impl RawCloth {
+    /// Runs `write` with streams into the staging memory, see `write_vertices`.
+    pub(crate) fn write_staged(
+        &mut self,
+        streams: &[f64],
+        desc: &[f64],
+        write: WriteStreams<'_>,
+    ) -> Result<()> {
         let (start, mut staging) = (self.staging_start(), core::mem::take(&mut self.staging));
         let bytes = &Cell::from_mut(&mut staging[..]).as_slice_of_cells()[start..];
         let read = |numbers: &[f64; 5]| {
@@ -48,17 +74,9 @@ impl RawCloth {
         // One stream more than the maximum is enough for the core to refuse.
         let streams = streams.as_chunks::<5>().0.iter().take(MAX_STREAMS + 1);
         let streams: Vec<Stream<'_>> = streams.map(read).collect();
-        let result = self.cloth.write_vertices(&streams, &unpack_write(desc));
+        let result = write(&mut self.cloth, &streams, &unpack_write(desc));
         self.staging = staging;
         result.map_err(to_js_error)
-    }
-
-    /// Writes 16-bit or 32-bit indices to the start of the staging memory.
-    pub fn write_indices(&mut self, is_wide: bool, flip: bool, base_vertex: u32) -> Result<()> {
-        let format = if is_wide { IndexFormat::U32 } else { IndexFormat::U16 };
-        let start = self.staging_start();
-        let bytes = &mut self.staging[start..];
-        self.cloth.write_indices(bytes, format, flip, base_vertex).map_err(to_js_error)
     }
 }
 

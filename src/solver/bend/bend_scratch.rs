@@ -8,6 +8,7 @@ use crate::math::columns::Columns;
 use crate::model::plate_elements::{PerKind, PlateElements};
 use crate::solver::bend::mesh_implicit::MeshBendScratch;
 use crate::solver::bend::plate::PlateScratch;
+use glam::Vec3;
 
 /// Buffers of stage `Bend`, kept so that no tick allocates.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +19,8 @@ pub(crate) struct BendScratch {
     /// Unit direction in which each plate element is curved at rest, per element kind.
     pub rest_direction: PerKind<Columns>,
     pub mesh: MeshBendScratch,
+    /// Multiplier of each dynamic link that is a hinge [kg m].
+    pub hinge_lambda: Vec<Vec3>,
 }
 
 impl BendScratch {
@@ -39,6 +42,7 @@ impl BendScratch {
             } else {
                 MeshBendScratch::new(triangles, hinges, capacity)
             },
+            hinge_lambda: Vec::new(),
         }
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!       a          C = Σ cᵢ xᵢ − rest n         x: p, q, a, b     n: unit normal of the hinge
-//!      ╱ ╲         λ = −C / (Σ cᵢ² wᵢ + α̃)      α̃ = 1 / (shape · stiffness)
-//!     p───q        Δxᵢ = wᵢ cᵢ λ
+//!      ╱ ╲         Δλ = −(C + α̃ λ) / (Σ cᵢ² wᵢ + α̃)      α̃ = 1 / (shape · stiffness)
+//!     p───q        Δxᵢ = wᵢ cᵢ Δλ
 //!      ╲ ╱
 //!       b
 //! ```
@@ -11,7 +11,7 @@
 //! "XPBD", MIG 2016). C is linear in the positions, so its gradient is constant and needs no square
 //! root.
 //!
-//! Reads the hinge and the start positions of the substep; writes four positions.
+//! Reads the hinge and the start positions of the substep; writes four positions and λ.
 //! Invariant: Σ cᵢ = 0, so a hinge conserves linear momentum.
 
 use crate::model::hinge::{Hinge, hinge_normal};
@@ -28,12 +28,14 @@ pub(crate) struct HingeStep {
     pub start_share: f32,
 }
 
-/// Projects one hinge. `start` gives the position of a particle at the start of the substep [m].
+/// Projects one hinge. `start` gives the position of a particle at the start of the substep [m]; the
+/// multiplier `lambda` [kg m] continues from the last sweep of the substep.
 #[inline(always)]
 pub(crate) fn project<S: ParticleAccess>(
     hinge: &Hinge,
     step: HingeStep,
     start: impl Fn(usize) -> Vec3,
+    lambda: &mut Vec3,
     particles: &mut S,
 ) {
     let at = hinge.particles.map(|vertex| vertex as usize);
@@ -53,7 +55,8 @@ pub(crate) fn project<S: ParticleAccess>(
         curve -= n * (hinge.rest * (1.0 - step.start_share));
     }
     let compliance = 1.0 / (hinge.shape * step.stiffness);
-    let change = curve * (-1.0 / (weight + compliance));
+    let change = (curve + *lambda * compliance) * (-1.0 / (weight + compliance));
+    *lambda += change;
     for ((i, (_, w)), c) in at.iter().zip(corners).zip(hinge.weight) {
         // Read the position again, because a hinge may contain a particle twice.
         let (x, _) = particles.particle(*i);

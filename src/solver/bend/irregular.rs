@@ -1,12 +1,13 @@
 //! Bending of grid elements that left the regular layout after a tear, in SIMD lanes.
 //!
 //! ```text
-//! a ── m ── b     C = a − 2 m + b − rest n,   λ = −C / (w_a + 4 w_m + w_b + α̃),   Δx = w c λ
+//! a ── m ── b     C = a − 2 m + b − rest n,   Δλ = −(C + α̃ λ) / (w_a + 4 w_m + w_b + α̃)
+//!                 Δx = w c Δλ
 //! ```
 //! Method: XPBD per element, as in `hinge`, with the fixed weights (1, −2, 1). Elements of one
 //! colour share no particle and run in lanes; elements without a colour run one after the other.
 //!
-//! Reads the elements, folds and start positions; writes positions.
+//! Reads the elements, folds and start positions; writes positions and the multipliers λ.
 //! Invariant: the order of the elements of a colour does not change the result.
 
 use crate::math::TINY;
@@ -14,9 +15,11 @@ use crate::math::columns::Columns;
 use crate::math::simd::{Float, LANES, Level, Scalar, Simd, vectored};
 use crate::model::hardening::Softening;
 use crate::model::irregular_bend::IrregularBends;
+use crate::solver::bend::banded::VectorColumns;
 use crate::solver::particle_stage::access::{
     ParticleAccess, ParticleSlices, gather_particles, scatter_positions,
 };
+use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::state::particles::Particles;
 use core::ops::Range;
 
@@ -37,14 +40,26 @@ pub(crate) struct IrregularStep<'a> {
     pub softening: Option<Softening<'a>>,
 }
 
-/// Projects all irregular elements once.
-pub(crate) fn solve(level: Level, step: IrregularStep<'_>, p: &mut Particles) {
-    for group in &step.elements.groups {
+/// Projects all irregular elements once, group by group in the given order. The multipliers
+/// `lambda` [kg m] continue from the last sweep.
+pub(crate) fn solve(
+    level: Level,
+    step: IrregularStep<'_>,
+    order: SweepOrder,
+    lambda: &mut VectorColumns,
+    p: &mut Particles,
+) {
+    let groups = &step.elements.groups;
+    for at in 0..groups.len() {
+        let group = match order {
+            SweepOrder::Forward => &groups[at],
+            SweepOrder::Backward => &groups[groups.len() - 1 - at],
+        };
         let (own, rest) = (group.range(), step.rest.map(|rest| rest[group.kind]));
         if group.is_colored {
-            solve_color(level, step, own, rest, p);
+            solve_color(level, step, own, rest, lambda, p);
         } else {
-            solve_scalar(step, own, rest, p);
+            solve_in_turn(step, own, order, rest, lambda, p);
         }
     }
 }
@@ -55,18 +70,39 @@ vectored! {
         step: IrregularStep<'_>,
         own: Range<usize>,
         rest: Option<&[f32]>,
+        lambda: &mut VectorColumns,
         p: &mut Particles,
     ) = solve_color_lanes, Avx2, solve_scalar
 }
 
-/// Projects elements one after the other.
+/// Projects elements of one colour without SIMD.
 fn solve_scalar(
     step: IrregularStep<'_>,
     own: Range<usize>,
     rest: Option<&[f32]>,
+    lambda: &mut VectorColumns,
     p: &mut Particles,
 ) {
-    solve_color_lanes(Scalar, step, own, rest, p);
+    solve_color_lanes(Scalar, step, own, rest, lambda, p);
+}
+
+/// Projects elements one after the other, in the given order.
+fn solve_in_turn(
+    step: IrregularStep<'_>,
+    own: Range<usize>,
+    order: SweepOrder,
+    rest: Option<&[f32]>,
+    lambda: &mut VectorColumns,
+    p: &mut Particles,
+) {
+    let slices = &mut ParticleSlices::new(p);
+    for k in 0..own.len() {
+        let at = match order {
+            SweepOrder::Forward => own.start + k,
+            SweepOrder::Backward => own.end - 1 - k,
+        };
+        project_lanes(Scalar, step, at, rest, lambda, slices);
+    }
 }
 
 #[inline(always)]
@@ -75,15 +111,16 @@ fn solve_color_lanes<S: Simd>(
     step: IrregularStep<'_>,
     own: Range<usize>,
     rest: Option<&[f32]>,
+    lambda: &mut VectorColumns,
     p: &mut Particles,
 ) {
     let slices = &mut ParticleSlices::new(p);
     let whole = own.start + own.len() / S::LANES * S::LANES;
     for at in (own.start..whole).step_by(S::LANES) {
-        project_lanes(s, step, at, rest, slices);
+        project_lanes(s, step, at, rest, lambda, slices);
     }
     for at in whole..own.end {
-        project_lanes(Scalar, step, at, rest, slices);
+        project_lanes(Scalar, step, at, rest, lambda, slices);
     }
 }
 
@@ -94,6 +131,7 @@ fn project_lanes<S: Simd, P: ParticleAccess>(
     step: IrregularStep<'_>,
     first: usize,
     rest: Option<&[f32]>,
+    lambda: &mut VectorColumns,
     particles: &mut P,
 ) {
     let (elements, own) = (step.elements, first..first + S::LANES);
@@ -123,13 +161,15 @@ fn project_lanes<S: Simd, P: ParticleAccess>(
         stiffness = stiffness * s.load(&left, 0);
     }
     let weight = (wa + wb) + s.splat(4.0) * wm;
-    let pull = stiffness / (weight * stiffness + one);
-    let (to_a, to_middle, to_b) = (wa * pull, s.splat(2.0) * wm * pull, wb * pull);
+    let share = one / (weight * stiffness + one);
     let (mut ya, mut ym, mut yb) = (xa, xm, xb);
-    for axis in 0..3 {
-        ya[axis] = xa[axis] - c[axis] * to_a;
-        ym[axis] = xm[axis] + c[axis] * to_middle;
-        yb[axis] = xb[axis] - c[axis] * to_b;
+    for (axis, lambda) in lambda.iter_mut().enumerate() {
+        let last = s.load(lambda, first);
+        let change = (c[axis] * stiffness + last) * share;
+        s.store(lambda, first, last - change);
+        ya[axis] = xa[axis] - change * wa;
+        ym[axis] = xm[axis] + change * (s.splat(2.0) * wm);
+        yb[axis] = xb[axis] - change * wb;
     }
     scatter_positions(s, particles, a, ya);
     scatter_positions(s, particles, middle, ym);

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! mesh             0 < bend_stiffness < 1                bend_stiffness >= 1
-//! grid             plate elements: `plate` (ADI)         distance links over two edges,
+//! grid             plate elements: `plate`               distance links over two edges,
 //!   torn parts     `irregular`, element by element       solved with the other links
 //! any other mesh   hinges: `mesh_implicit`
 //! after a cut      `hinge`, hinge by hinge
@@ -18,15 +18,16 @@
 //! Invariant: bending conserves linear momentum. The stage works on columns or on the interleaved
 //! layout, whichever is current. With `bend_stiffness` 0 it does nothing.
 
-pub(crate) mod adi_factors;
 pub(crate) mod banded;
 pub(crate) mod bend_scratch;
 pub(crate) mod chebyshev;
 pub(crate) mod fold_edits;
 pub(crate) mod hinge;
 pub(crate) mod irregular;
+pub(crate) mod line_factors;
 pub(crate) mod mesh_implicit;
 pub(crate) mod plate;
+pub(crate) mod plate_kernels;
 pub(crate) mod rest_direction;
 pub(crate) mod spectral_bound;
 pub(crate) mod stiffness_matrix;
@@ -35,9 +36,11 @@ pub(crate) mod twist;
 use crate::model::links::LinkKind;
 use crate::solver::bend::hinge::HingeStep;
 use crate::solver::bend::mesh_implicit::MeshBend;
+use crate::solver::integrate::elastic_corrections;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{distance, mesh_kernel};
 use crate::solver::world::World;
+use glam::Vec3;
 
 /// Whether this stage may change the angular momentum of a free piece.
 ///
@@ -86,16 +89,34 @@ fn solve_elements(world: &mut World, order: SweepOrder) {
     let stiffness =
         world.material.bend_stiffness * scheme.velocity_step * scheme.velocity_step * (1.0 + lag);
     let step = HingeStep { stiffness, start_share: lag / (1.0 + lag) };
-    if world.plate_elements.is_some() {
-        solve_plates(world, step, order);
-        if order == SweepOrder::Forward {
-            solve_irregular(world, step);
+    elastic_corrections::run(world, |world| {
+        if world.plate_elements.is_some() {
+            solve_plates(world, step, order);
+        } else {
+            solve_hinges(world, step, order);
         }
-    } else {
-        solve_hinges(world, step, order);
-    }
+    });
     if order == SweepOrder::Forward {
-        solve_cut_hinges(world, step);
+        solve_off_grid(world, step);
+    }
+}
+
+/// Bends the elements that tears and cuts took out of the regular layout, in a sweep forward and one
+/// backward, since the elements of one sweep in one direction would add energy.
+#[inline(never)]
+fn solve_off_grid(world: &mut World, step: HingeStep) {
+    let has_irregular =
+        world.plate_elements.as_ref().is_some_and(|plates| !plates.irregular.groups.is_empty());
+    let has_hinges = !world.constraints.sparse.batches_of(LinkKind::Bend).is_empty();
+    if has_irregular {
+        solve_irregular(world, step, SweepOrder::Forward);
+    }
+    if has_hinges {
+        solve_cut_hinges(world, step, SweepOrder::Forward);
+        solve_cut_hinges(world, step, SweepOrder::Backward);
+    }
+    if has_irregular {
+        solve_irregular(world, step, SweepOrder::Backward);
     }
 }
 
@@ -152,8 +173,12 @@ pub(crate) fn update_folds(world: &mut World) {
 
 /// Bends the parts of a grid whose elements tears took out of the regular layout.
 #[inline(never)]
-fn solve_irregular(world: &mut World, step: HingeStep) {
-    let Some(plates) = &world.plate_elements else { return };
+fn solve_irregular(world: &mut World, step: HingeStep, order: SweepOrder) {
+    let Some(plates) = &mut world.plate_elements else { return };
+    let mut lambda = core::mem::take(&mut plates.irregular.lambda);
+    if order == SweepOrder::Forward {
+        lambda.iter_mut().for_each(|lambda| lambda.fill(0.0));
+    }
     let (scratch, [weft, warp, _]) = (&world.scratch, &world.folds.offset);
     let step = irregular::IrregularStep {
         elements: &plates.irregular,
@@ -164,25 +189,32 @@ fn solve_irregular(world: &mut World, step: HingeStep) {
         rest: world.folds.has_any.then_some([weft, warp]),
         softening: world.folds.hardening.softening(&world.material),
     };
-    irregular::solve(world.level, step, &mut world.particles);
+    irregular::solve(world.level, step, order, &mut lambda, &mut world.particles);
+    plates.irregular.lambda = lambda;
 }
 
 /// Bends the hinges that cuts added, one after the other.
 #[inline(never)]
-fn solve_cut_hinges(world: &mut World, step: HingeStep) {
+fn solve_cut_hinges(world: &mut World, step: HingeStep, order: SweepOrder) {
     let links = &world.constraints.dynamic;
-    if world.constraints.sparse.batches_of(LinkKind::Bend).is_empty() {
-        return;
+    let lambda = &mut world.scratch.bend.hinge_lambda;
+    if order == SweepOrder::Forward {
+        lambda.clear();
+        lambda.resize(links.len(), Vec3::ZERO);
     }
-    for link in 0..links.len() {
+    for k in 0..links.len() {
+        let link = match order {
+            SweepOrder::Forward => k,
+            SweepOrder::Backward => links.len() - 1 - k,
+        };
         if links.kind(link) != LinkKind::Bend || !links.active[link] {
             continue;
         }
         let hinge = world.constraints.hinges.dynamic_hinge(&world.mesh, links, link, &world.rest);
         if let Some(hinge) = hinge {
-            let scratch = &world.scratch;
-            let start = |i: usize| scratch.predicted.get(i) - scratch.displacement.get(i);
-            hinge::project(&hinge, step, start, &mut world.particles);
+            let (predicted, displacement) = (&world.scratch.predicted, &world.scratch.displacement);
+            let start = |i: usize| predicted.get(i) - displacement.get(i);
+            hinge::project(&hinge, step, start, &mut lambda[link], &mut world.particles);
         }
     }
 }

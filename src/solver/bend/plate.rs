@@ -1,27 +1,41 @@
 //! Bending of a grid by plate elements: one implicit step for the whole sheet.
 //!
 //! ```text
-//! M d = −h² K (x + d)         K = K_weft + K_warp + K_twist,  d: displacement by bending
-//! (µM + h² K_weft) (µM)⁻¹ (µM + h² K_warp) Δ = −h² K x − M d
+//! M d = −h² K (x + d)          K = K_weft + K_warp + K_twist,  d: displacement by bending
+//!
+//! weft ▶ warp ▶ twist          first solve: (M + h² K_i) Δ_i = −h² K_i x − M d_i
+//! twist ▶ warp ▶ weft          second solve: (µ M + h² K_i) Δ_i, with the same right side
 //! ```
 //! Method: K couples so widely that Gauss–Seidel sweeps over elements would take thousands of
 //! iterations for a sheet as stiff as paper. K_weft and K_warp are pentadiagonal along rows and
-//! columns, so their factors are cheap (`banded`), and the product above removes most of the error
-//! at any stiffness: the alternating direction implicit method (ADI; Peaceman and Rachford 1955;
-//! Wachspress on the shifts µ). At equilibrium the right side is zero, so the rest shape does not
-//! depend on the number of solves. `twist` solves the twist, and `chebyshev` soft sheets.
+//! columns, so their factors are cheap (`banded`). Each of the three parts is solved by itself, with
+//! the forces of the others as they are: block Gauss–Seidel for the multipliers of XPBD (Macklin,
+//! Müller, Chentanez, MIG 2016). d_i is what part i has done so far. At equilibrium the right side is
+//! zero, so the rest shape does not depend on the number of solves. `twist` solves the twist, and
+//! `chebyshev` soft sheets.
+//!
+//! Each solve is a projection in the norm of the energy, or part of one for µ > 1, and the second
+//! solve mirrors the first. So x + d is x times a symmetric matrix with eigenvalues from 0 to 1,
+//! which no time integration scheme turns into growth. A product of both directions (ADI; Peaceman
+//! and Rachford 1955) is not: where pins and cuts keep K_weft and K_warp from commuting it has
+//! complex eigenvalues, which add energy. µ leaves to the links what they did in between. With one
+//! iteration there is no second solve: the scheme of such settings, BDF1, damps what one order adds.
 //!
 //! Reads plate elements, folds, masses and positions; writes positions and `PlateScratch`.
 //! Invariant: factors and bound are recomputed when pins, masses, elements or stiffness change.
 
 use crate::math::columns::Columns;
-use crate::math::same_bits;
-use crate::math::simd::{Level, leveled};
+use crate::math::simd::Level;
+use crate::math::{max, same_bits};
 use crate::model::hardening::Softening;
 use crate::model::plate_elements::{PerKind, PlateElements};
-use crate::solver::bend::adi_factors::AdiFactors;
 use crate::solver::bend::banded::VectorColumns;
 use crate::solver::bend::chebyshev::ChebyshevSteps;
+use crate::solver::bend::line_factors::LineFactors;
+use crate::solver::bend::plate_kernels::{
+    apply_displacement, compute_curvature, compute_line_curvature, compute_twist, first_step,
+    gather_forces, gather_line_forces, next_step, subtract_momentum, subtract_rest, subtract_start,
+};
 use crate::solver::bend::spectral_bound;
 use crate::solver::bend::twist::{Twist, TwistOffset};
 
@@ -45,9 +59,9 @@ pub(crate) struct PlateScratch {
     force: VectorColumns,
     /// Upper bound of the stiffness over mass of any shape, relative to an interior element [1/kg].
     bound: f32,
-    /// Displacement by bending in this substep [m].
-    total: VectorColumns,
-    solves: [AdiFactors; 2],
+    /// Displacement by the weft and by the warp elements in this substep [m].
+    total: [VectorColumns; 2],
+    factors: [LineFactors; 2],
     twist: Twist,
     w: Vec<f32>,
     mass: Vec<f32>,
@@ -88,8 +102,8 @@ impl PlateScratch {
             shifted: list(),
             force: [list(), list(), list()],
             bound: 0.0,
-            total: [list(), list(), list()],
-            solves: [AdiFactors::new(count), AdiFactors::new(count)],
+            total: [[list(), list(), list()], [list(), list(), list()]],
+            factors: [LineFactors::new(count), LineFactors::new(count)],
             twist: Twist::new(plates),
             w: vec![-1.0; count],
             mass: list(),
@@ -148,41 +162,94 @@ impl PlateScratch {
         columns: usize,
         axis: usize,
         x: &[f32],
-        has_twist: bool,
     ) {
         let Self { weight, curve, shifted, force, .. } = self;
-        let count = shifted.len();
-        let x = &x[..count];
-        let shifted = if step.start_share == 0.0 {
-            x
-        } else {
-            let start = [
-                &step.predicted.slices()[axis][..count],
-                &step.displacement.slices()[axis][..count],
-            ];
-            subtract_start(step.level, shifted, x, start, step.start_share);
-            &shifted[..]
-        };
-        compute_curvature(step.level, shifted, weight, curve, columns);
-        if has_twist {
-            compute_twist(step.level, shifted, &weight[2], &mut curve[2], columns);
-        }
-        if let Some((rest, directions)) = step.rest {
-            let share = 1.0 - step.start_share;
-            for kind in 0..if has_twist { 3 } else { 2 } {
-                let (weight, rest) = (&weight[kind], &rest[kind]);
-                let direction = &directions[kind].slices()[axis][..count];
-                subtract_rest(
-                    step.level,
-                    weight,
-                    rest,
-                    direction,
-                    share,
-                    &mut curve[kind][columns + 1..],
-                );
-            }
+        let x = shift_positions(step, axis, x, shifted);
+        compute_curvature(step.level, x, weight, curve, columns);
+        compute_twist(step.level, x, &weight[2], &mut curve[2], columns);
+        for kind in 0..3 {
+            subtract_rest_of(step, kind, axis, &weight[kind], &mut curve[kind][columns + 1..]);
         }
         gather_forces(step.level, curve, stiffness, &mut force[axis], columns);
+    }
+
+    /// Solves the elements of one direction exactly, given what all others have done so far, and
+    /// moves the particles: (M + h² K) Δ = −h² K x − M d, d: what this direction has done so far.
+    fn solve_direction(
+        &mut self,
+        step: PlateStep<'_>,
+        direction: Direction,
+        columns: usize,
+        x: &mut Columns,
+        mass: &[f32],
+        is_first: bool,
+    ) {
+        let Self { weight, curve, shifted, force, total, factors, .. } = self;
+        let (kind, stride) = match direction {
+            Direction::Weft => (0, 1),
+            Direction::Warp => (1, columns),
+        };
+        let factors = &factors[if is_first { 0 } else { 1 }];
+        let (weight, curve, total) = (&weight[kind], &mut curve[kind], &mut total[kind]);
+        let inside = columns + 1..columns + 1 + weight.len();
+        for (axis, (force, total)) in force.iter_mut().zip(&*total).enumerate() {
+            let x = shift_positions(step, axis, x.slices()[axis], shifted);
+            compute_line_curvature(step.level, x, weight, &mut curve[inside.clone()], stride);
+            subtract_rest_of(step, kind, axis, weight, &mut curve[inside.clone()]);
+            gather_line_forces(step.level, curve, factors.stiffness, force, [columns + 1, stride]);
+            if !is_first {
+                subtract_momentum(step.level, force, total, mass);
+            }
+        }
+        match direction {
+            Direction::Weft => factors.weft.solve_rows(columns, force),
+            Direction::Warp => factors.warp.solve_columns(step.level, columns, force),
+        }
+        for ((x, displacement), total) in x.slices_mut().into_iter().zip(&*force).zip(total) {
+            let x = &mut x[..total.len()];
+            apply_displacement(step.level, x, displacement, total, is_first);
+        }
+    }
+}
+
+/// Direction of second differences.
+#[derive(Clone, Copy, Debug)]
+enum Direction {
+    Weft,
+    Warp,
+}
+
+/// Positions along one axis less the damping share of the start positions, which are stored in
+/// `shifted`; without damping the positions themselves.
+fn shift_positions<'a>(
+    step: PlateStep<'_>,
+    axis: usize,
+    x: &'a [f32],
+    shifted: &'a mut [f32],
+) -> &'a [f32] {
+    let count = shifted.len();
+    let x = &x[..count];
+    if step.start_share == 0.0 {
+        return x;
+    }
+    let start =
+        [&step.predicted.slices()[axis][..count], &step.displacement.slices()[axis][..count]];
+    subtract_start(step.level, shifted, x, start, step.start_share);
+    shifted
+}
+
+/// Subtracts the rest curvature of the elements of one kind along one axis, if there are folds.
+fn subtract_rest_of(
+    step: PlateStep<'_>,
+    kind: usize,
+    axis: usize,
+    weight: &[f32],
+    curve: &mut [f32],
+) {
+    if let Some((rest, directions)) = step.rest {
+        let direction = &directions[kind].slices()[axis][..weight.len()];
+        let share = 1.0 - step.start_share;
+        subtract_rest(step.level, weight, &rest[kind], direction, share, curve);
     }
 }
 
@@ -196,10 +263,10 @@ fn solve_chebyshev(
     x: &mut Columns,
 ) {
     for (axis, x) in x.slices_mut().into_iter().enumerate() {
-        scratch.compute_force(step, stiffness, columns, axis, x, true);
+        scratch.compute_force(step, stiffness, columns, axis, x);
         let PlateScratch { weight, curve, shifted: force_change, force, total, w, mass, .. } =
             &mut *scratch;
-        let (force, displacement) = (&mut force[axis][..], &mut total[axis][..]);
+        let (force, displacement) = (&mut force[axis][..], &mut total[0][axis][..]);
         let x = &mut x[..displacement.len()];
         let [[_, gain], rest @ ..] = chebyshev.steps() else {
             displacement.fill(0.0);
@@ -244,7 +311,7 @@ pub(crate) fn solve(
     if let Some(chebyshev) = ChebyshevSteps::new(scratch.bound * stiffness) {
         if step.is_first {
             // Invalidate the factors, because `refresh` may have changed pins and masses.
-            scratch.solves.iter_mut().for_each(|factors| factors.stiffness = -1.0);
+            scratch.factors.iter_mut().for_each(|factors| factors.stiffness = -1.0);
             solve_chebyshev(scratch, step, stiffness, columns, &chebyshev, x);
         }
         return;
@@ -254,246 +321,34 @@ pub(crate) fn solve(
         return;
     }
     if step.is_first {
-        scratch.curve[2].fill(0.0);
-        if has_changed || scratch.solves[0].stiffness != stiffness {
+        if has_changed || scratch.factors[0].stiffness != stiffness {
             scratch.twist.factor(plates, &scratch.weight[2], w, stiffness);
         }
-        let second_shift = SHIFT_FACTOR * stiffness_over_mass.sqrt();
-        for (factors, shift) in scratch.solves.iter_mut().zip([1.0, second_shift]) {
+        let shift = max(1.0, SHIFT_FACTOR * stiffness_over_mass.sqrt());
+        for (factors, shift) in scratch.factors.iter_mut().zip([1.0, shift]) {
             if has_changed || factors.stiffness != stiffness || factors.shift != shift {
                 (factors.stiffness, factors.shift) = (stiffness, shift);
                 factors.factor(plates, &scratch.weight, &scratch.w, &scratch.mass);
             }
         }
     }
-    let from = TwistOffset {
+    let offset = TwistOffset {
         start_share: step.start_share,
         predicted: step.predicted,
         displacement: step.displacement,
         rest: step.rest.map(|(rest, directions)| (&rest[2][..], &directions[2])),
     };
-    if !step.is_first {
-        scratch.twist.solve(step.level, columns, x, w, from, false);
-    }
-    for axis in 0..3 {
-        scratch.compute_force(step, stiffness, columns, axis, x.slices()[axis], false);
-        if !step.is_first {
-            for ((force, total), mass) in
-                scratch.force[axis].iter_mut().zip(&scratch.total[axis]).zip(mass)
-            {
-                *force -= total * mass;
-            }
+    let mass = &mass[..count];
+    if step.is_first {
+        for direction in [Direction::Weft, Direction::Warp] {
+            scratch.solve_direction(step, direction, columns, x, mass, true);
         }
+        scratch.twist.solve(step.level, columns, x, w, offset, true);
     }
-    let PlateScratch { force, total, solves, twist, .. } = scratch;
-    let factors = &solves[if step.is_first { 0 } else { 1 }];
-    if step.is_first {
-        factors.weft.solve_rows(columns, force);
-        factors.scale_by_shifted_mass(step.level, &mass[..count], force);
-        factors.warp.solve_columns(step.level, columns, force);
-    } else {
-        factors.warp.solve_columns(step.level, columns, force);
-        factors.scale_by_shifted_mass(step.level, &mass[..count], force);
-        factors.weft.solve_rows(columns, force);
-    }
-    for ((x, displacement), total) in x.slices_mut().into_iter().zip(&*force).zip(total) {
-        apply_displacement(step.level, &mut x[..count], displacement, total, step.is_first);
-    }
-    if step.is_first {
-        twist.solve(step.level, columns, x, w, from, true);
-    }
-}
-
-leveled! {
-    /// Computes positions less a share of the start positions.
-    fn subtract_start(shifted: &mut [f32], x: &[f32], start: [&[f32]; 2], share: f32)
-        = subtract_start_lanes
-}
-
-#[inline(always)]
-fn subtract_start_lanes(
-    shifted: &mut [f32],
-    x: &[f32],
-    [predicted, displacement]: [&[f32]; 2],
-    share: f32,
-) {
-    for (((shifted, x), predicted), displacement) in
-        shifted.iter_mut().zip(x).zip(predicted).zip(displacement)
-    {
-        *shifted = x - (predicted - displacement) * share;
-    }
-}
-
-leveled! {
-    /// Computes the curvature of each weft and warp element, times its weight.
-    fn compute_curvature(
-        x: &[f32],
-        weight: &PerKind<Vec<f32>>,
-        curve: &mut PerKind<Vec<f32>>,
-        columns: usize,
-    ) = compute_curvature_lanes
-}
-
-#[inline(always)]
-fn compute_curvature_lanes(
-    x: &[f32],
-    [weft, warp, _]: &PerKind<Vec<f32>>,
-    [to_weft, to_warp, _]: &mut PerKind<Vec<f32>>,
-    columns: usize,
-) {
-    let (count, edge) = (x.len(), columns + 1);
-    let out = to_weft[edge + 1..edge + count - 1].iter_mut().zip(&weft[1..count - 1]);
-    // `windows` needs one base address for three neighbours.
-    for ((out, weight), x) in out.zip(x.windows(3)) {
-        *out = ((x[0] + x[2]) - 2.0 * x[1]) * weight;
-    }
-    let inner = columns..count - columns;
-    let out = to_warp[edge + columns..edge + count - columns].iter_mut().zip(&warp[inner.clone()]);
-    let ends = x[..count - 2 * columns].iter().zip(&x[2 * columns..]);
-    for (((out, weight), (a, b)), m) in out.zip(ends).zip(&x[inner]) {
-        *out = ((a + b) - 2.0 * m) * weight;
-    }
-}
-
-leveled! {
-    /// Computes the twist of each cell, times its weight.
-    fn compute_twist(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usize)
-        = compute_twist_lanes
-}
-
-#[inline(always)]
-fn compute_twist_lanes(x: &[f32], weight: &[f32], twist: &mut [f32], columns: usize) {
-    let cells = x.len() - columns - 1;
-    let edge = columns + 1;
-    let out = twist[edge..edge + cells].iter_mut().zip(&weight[..cells]);
-    for (((out, weight), upper), lower) in out.zip(x.windows(2)).zip(x[columns..].windows(2)) {
-        *out = ((upper[0] - upper[1]) - (lower[0] - lower[1])) * weight;
-    }
-}
-
-leveled! {
-    /// Subtracts the weighted rest curvature of each element.
-    fn subtract_rest(
-        weight: &[f32],
-        rest: &[f32],
-        direction: &[f32],
-        share: f32,
-        curve: &mut [f32],
-    ) = subtract_rest_lanes
-}
-
-#[inline(always)]
-fn subtract_rest_lanes(
-    weight: &[f32],
-    rest: &[f32],
-    direction: &[f32],
-    share: f32,
-    curve: &mut [f32],
-) {
-    for (((curve, weight), rest), direction) in
-        curve.iter_mut().zip(weight).zip(rest).zip(direction)
-    {
-        *curve -= rest * share * direction * weight;
-    }
-}
-
-leveled! {
-    /// Gathers the force on each particle from its elements, times h².
-    fn gather_forces(
-        curve: &PerKind<Vec<f32>>,
-        stiffness: f32,
-        force: &mut [f32],
-        columns: usize,
-    ) = gather_forces_lanes
-}
-
-#[inline(always)]
-fn gather_forces_lanes(
-    [weft, warp, twist]: &PerKind<Vec<f32>>,
-    stiffness: f32,
-    force: &mut [f32],
-    columns: usize,
-) {
-    let (count, edge) = (force.len(), columns + 1);
-    let weft = weft[edge - 1..].windows(3);
-    let warp = warp[1..][..count].iter().zip(&warp[edge..]).zip(&warp[edge + columns..]);
-    let twist = twist[..count + 1].windows(2).zip(twist[columns..].windows(2));
-    for (((force, weft), ((above, warp), below)), (upper, lower)) in
-        force.iter_mut().zip(weft).zip(warp).zip(twist)
-    {
-        let weft_force = (2.0 * weft[1] - weft[0]) - weft[2];
-        let warp_force = (2.0 * warp - above) - below;
-        let twist_force = (lower[1] - lower[0]) - (upper[1] - upper[0]);
-        *force = ((weft_force + warp_force) - twist_force) * stiffness;
-    }
-}
-
-leveled! {
-    /// First Chebyshev step, without a previous displacement.
-    fn first_step(gain: f32, w: &[f32], force: &mut [f32], displacement: &mut [f32], x: &mut [f32])
-        = first_step_lanes
-}
-
-#[inline(always)]
-fn first_step_lanes(
-    gain: f32,
-    w: &[f32],
-    force: &mut [f32],
-    displacement: &mut [f32],
-    x: &mut [f32],
-) {
-    for (((x, displacement), force), w) in x.iter_mut().zip(displacement).zip(force).zip(w) {
-        // Adds zeros as `next_step` would, so that −0 becomes +0 in both.
-        *force += 0.0;
-        *displacement = 0.0 + *force * w * gain;
-        *x += *displacement;
-    }
-}
-
-leveled! {
-    /// Chebyshev step: updates residual force, displacement and position.
-    fn next_step(
-        coefficients: [f32; 2],
-        per_particle: [&[f32]; 3],
-        force: &mut [f32],
-        displacement: &mut [f32],
-        x: &mut [f32],
-    ) = next_step_lanes
-}
-
-#[inline(always)]
-fn next_step_lanes(
-    [keep, gain]: [f32; 2],
-    [force_change, w, mass]: [&[f32]; 3],
-    force: &mut [f32],
-    displacement: &mut [f32],
-    x: &mut [f32],
-) {
-    let per_particle = force_change.iter().zip(w).zip(mass);
-    for (((x, displacement), force), ((force_change, w), mass)) in
-        x.iter_mut().zip(displacement).zip(force).zip(per_particle)
-    {
-        *force += force_change - mass * *displacement;
-        *displacement = *displacement * keep + *force * w * gain;
-        *x += *displacement;
-    }
-}
-
-leveled! {
-    /// Adds displacements to positions and to the total of the substep.
-    fn apply_displacement(x: &mut [f32], displacement: &[f32], total: &mut [f32], is_first: bool)
-        = apply_displacement_lanes
-}
-
-#[inline(always)]
-fn apply_displacement_lanes(
-    x: &mut [f32],
-    displacement: &[f32],
-    total: &mut [f32],
-    is_first: bool,
-) {
-    for ((x, displacement), total) in x.iter_mut().zip(displacement).zip(total) {
-        *x += displacement;
-        *total = if is_first { *displacement } else { *total + displacement };
+    if !step.is_first {
+        scratch.twist.solve(step.level, columns, x, w, offset, false);
+        for direction in [Direction::Warp, Direction::Weft] {
+            scratch.solve_direction(step, direction, columns, x, mass, false);
+        }
     }
 }

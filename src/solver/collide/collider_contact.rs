@@ -25,6 +25,12 @@ pub(crate) struct ColliderContact {
     pub correction: Vec3,
     /// The distance that the particle keeps from the collider [m].
     pub gap: f32,
+    /// Where the particle was along the normal after the position pass [m].
+    pub height: f32,
+    /// How far surface collision pushed it along the normal [m].
+    pub pushed: f32,
+    /// The coefficient of friction.
+    pub friction: f32,
     pub restitution: f32,
     pub tangential_restitution: f32,
 }

@@ -17,6 +17,7 @@ use crate::math::columns::Columns;
 use crate::math::max;
 use crate::math::simd::{Level, leveled};
 use crate::solver::collide::local_particles::LocalParticles;
+use crate::solver::collide::nearby_blocks::BLOCK;
 use core::ops::Range;
 
 /// The columns of a block of particles.
@@ -46,6 +47,28 @@ pub(super) fn update_clearance(
     let mut is_within = false;
     any_within(level, clearance, particles.gap, &mut is_within);
     is_within
+}
+
+/// Returns whether a position of a range may be lower than `height` [m] above a shape at rest in
+/// `frame`; a negative height is a depth.
+pub(super) fn is_any_below(
+    level: Level,
+    x: &Columns,
+    frame: &Transform,
+    bound: DistanceBound,
+    range: Range<usize>,
+    height: f32,
+) -> bool {
+    let still = [&[0.0; BLOCK][..range.len()]; 3];
+    let (x, mut distances) = (slices(x, &range), [0.0; BLOCK]);
+    let block = BlockColumns { x, predicted: x, displacement: still };
+    let distances = &mut distances[..range.len()];
+    compute_clearance(level, block, &[*frame; 2], bound, distances);
+    // The distance from a box is zero anywhere inside.
+    let height = if let DistanceBound::Box(..) = bound { max(height, 0.0) } else { height };
+    let mut is_below = false;
+    any_within(level, distances, height, &mut is_below);
+    is_below
 }
 
 fn slices<'a>(columns: &'a Columns, range: &Range<usize>) -> [&'a [f32]; 3] {

@@ -225,6 +225,9 @@ impl LocalParticles<'_> {
                 approach_velocity: self.v.get(i),
                 correction,
                 gap: self.gap,
+                height: 0.0,
+                pushed: 0.0,
+                friction: self.material.friction,
                 restitution: self.material.restitution,
                 tangential_restitution: self.material.tangential_restitution,
             });

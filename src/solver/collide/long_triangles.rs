@@ -90,6 +90,22 @@ impl LongTriangles {
         }
     }
 
+    /// Measures the edges again if rounds of pushes moved triangles far, `pushed` [m] in all, and
+    /// returns whether they did.
+    pub fn measure_after_rounds(
+        &mut self,
+        pushed: f32,
+        mean_edge: f32,
+        (x, triangles): (&Columns, &[[u32; 3]]),
+        level: Level,
+    ) -> bool {
+        let is_far = self.limit < f32::INFINITY && pushed > FAR_PUSH * mean_edge;
+        if is_far {
+            self.measure(x, triangles, level);
+        }
+        is_far
+    }
+
     /// Lists the triangles with an edge above the limit.
     #[inline(never)]
     fn measure(&mut self, x: &Columns, triangles: &[[u32; 3]], level: Level) {

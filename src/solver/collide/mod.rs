@@ -26,6 +26,7 @@ mod contact_distance;
 pub(crate) mod contact_scratch;
 mod distance_cull;
 mod edge_vs_feature;
+pub(crate) mod inside;
 mod local_particles;
 mod long_pairs;
 mod long_triangles;
@@ -36,6 +37,7 @@ mod particle_vs_shape;
 mod push_accumulator;
 pub(crate) mod relative_motion;
 pub(crate) mod response;
+pub(crate) mod second_response;
 mod triangle_vs_round;
 
 use crate::geometry::collision_shape::CollisionShape;
@@ -60,7 +62,7 @@ const TRIANGLE_ROUNDS: [u32; 2] = [2, 40];
 const MAX_SEARCHES: u32 = 4;
 
 /// The largest number of rounds that roll triangles back.
-const MAX_ROLLBACK_ROUNDS: u32 = 16;
+const MAX_ROLLBACK_ROUNDS: u32 = 100;
 
 /// The largest speed at which cloth that started inside a shape comes out [m/s]. A larger speed
 /// would overstretch the cloth around it and fling it away.
@@ -98,6 +100,7 @@ pub(crate) fn begin_tick(world: &mut World) {
     scratch.first_pusher = 0;
     scratch.impulses.clear();
     scratch.impulses.extend(world.colliders.iter().map(|_| Impulse::default()));
+    scratch.late_pushes.clone_from(&scratch.impulses);
     broad_phase::update_swept_bounds(world);
 }
 
@@ -221,8 +224,7 @@ pub(crate) fn project_out_in_substep(
 pub(crate) fn solve(world: &mut World, substep: u32) {
     let contacts = &mut world.scratch.contacts;
     contacts.collider_contacts.clear();
-    contacts.late_pushes.clear();
-    contacts.late_pushes.resize(contacts.impulses.len(), Impulse::default());
+    contacts.forget_late_pushes();
     let substeps = world.substeps;
     solve_colliders(world, &|body| substep_frames(body, substep, substeps), None);
 }
@@ -340,7 +342,7 @@ fn solve_colliders(
                     &neighbours,
                     gap,
                     pushes,
-                    &|particles, pushes| {
+                    &mut |particles, pushes| {
                         pushes.reset(particles.w.len());
                         let sharp =
                             edge_vs_feature::push(&features, particles, close_pairs, pushes);
@@ -354,18 +356,37 @@ fn solve_colliders(
                     break;
                 }
             }
-        } else if !(neighbours.triangle_blocks.is_empty() && long.is_empty()) {
-            solve_rounds(shape, &mut particles, &neighbours, gap, pushes, &|particles, pushes| {
-                triangle_vs_round::solve(
-                    shape,
-                    particles,
-                    (&world.mesh.triangles, long),
-                    &neighbours,
-                    gap,
-                    clearance,
-                    pushes,
-                )
-            });
+            continue;
+        }
+        // Rounds that push far may make other triangles long.
+        for _ in 0..MAX_SEARCHES {
+            let long = contacts.long.list();
+            if neighbours.triangle_blocks.is_empty() && long.is_empty() {
+                break;
+            }
+            let triangles = &world.mesh.triangles[..];
+            let pushed = solve_rounds(
+                shape,
+                &mut particles,
+                &neighbours,
+                gap,
+                pushes,
+                &mut |particles, pushes| {
+                    triangle_vs_round::solve(
+                        shape,
+                        particles,
+                        (triangles, long),
+                        &neighbours,
+                        gap,
+                        clearance,
+                        pushes,
+                    )
+                },
+            );
+            let surface = (&*particles.x, triangles);
+            if !contacts.long.measure_after_rounds(pushed, world.mean_edge, surface, world.level) {
+                break;
+            }
         }
     }
 }
@@ -383,7 +404,7 @@ fn solve_rounds(
     neighbours: &Neighbours<'_>,
     gap: f32,
     pushes: &mut PushAccumulator,
-    push: &dyn Fn(&mut LocalParticles<'_>, &mut PushAccumulator) -> f32,
+    push: &mut dyn FnMut(&mut LocalParticles<'_>, &mut PushAccumulator) -> f32,
 ) -> f32 {
     let mut pushed = 0.0;
     for round in 1..=TRIANGLE_ROUNDS[1] {

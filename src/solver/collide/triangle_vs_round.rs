@@ -8,14 +8,15 @@
 //!     a─────b
 //! ```
 //! A capsule is a family of spheres; alternating between the closest point of the triangle and the
-//! closest sphere finds the nearest pair. Continuous detection of a point and a triangle searches
+//! closest sphere finds the nearest pair. Where that is slow, the ends and the spheres nearest to the
+//! edges of the triangle are compared. Continuous detection of a point and a triangle searches
 //! for the root of the signed volume by bisection.
 //!
 //! Reads local particles, blocks of triangles and clearances; writes positions through
 //! [`PushAccumulator`].
 //! Invariant: only triangles with a corner near the shape are tested, so no others move.
 
-use crate::geometry::closest_points::{interpolate, triangle_to_origin};
+use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::primitives::PlacedSphere;
 use crate::geometry::signed_distance::SignedDistance;
@@ -61,7 +62,7 @@ pub(super) fn solve(
     (triangles, long_triangles): (&[[u32; 3]], &[u32]),
     neighbours: &Neighbours<'_>,
     gap: f32,
-    clearance: &[f32],
+    clearance: &mut [f32],
     pushes: &mut PushAccumulator,
 ) -> f32 {
     let (gap, mut deepest) = (gap * TRIANGLE_GAP, 0.0);
@@ -115,6 +116,8 @@ pub(super) fn solve(
         }
     }
     pushes.apply(particles);
+    // The clearances of these hold no longer, so their triangles count as near.
+    pushes.pushed().iter().for_each(|i| clearance[*i as usize] = 0.0);
     deepest
 }
 
@@ -174,17 +177,31 @@ fn round_contact(
     if let Some(contact) = crossings.reduce(deeper) {
         return Some(contact);
     }
-    let mut weights = [1.0, 0.0, 0.0];
     for _ in 0..MAX_STEPS {
-        weights = triangle_to_origin(motion.end.map(|x| x - sphere.center));
+        let weights = triangle_to_origin(motion.end.map(|x| x - sphere.center));
         let next = closest_sphere(interpolate(motion.end, weights));
         let has_converged = next.center == sphere.center;
         sphere = next;
         if has_converged {
-            break;
+            return sphere_contact(sphere, motion.end, gap);
         }
     }
-    let out = interpolate(motion.end, weights) - sphere.center;
+    // An edge that is nearly parallel to the axis converges slowly. The nearest points are then near
+    // the axis, on an edge of the triangle or at an end of the capsule.
+    let [a, b, c] = motion.end;
+    let axis = ends.map(|end| end.center);
+    let beside_edges = [[a, b], [b, c], [c, a]].map(|edge| {
+        let (_, t) = segment_to_segment(axis, edge);
+        closest_sphere(edge[0] + (edge[1] - edge[0]) * t)
+    });
+    let candidates = [sphere, ends[0], ends[1]].into_iter().chain(beside_edges);
+    candidates.filter_map(|sphere| sphere_contact(sphere, motion.end, gap)).reduce(deeper)
+}
+
+/// Returns the contact of a triangle at rest with a sphere, if they are nearer than `gap` [m].
+fn sphere_contact(sphere: PlacedSphere, corners: [Vec3; 3], gap: f32) -> Option<TriangleContact> {
+    let weights = triangle_to_origin(corners.map(|x| x - sphere.center));
+    let out = interpolate(corners, weights) - sphere.center;
     let length = out.length();
     let depth = sphere.radius + gap - length;
     (depth > 0.0 && length > TINY).then(|| {

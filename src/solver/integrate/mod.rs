@@ -3,8 +3,10 @@
 //!
 //! `time_step` sets the number of substeps and `forces` runs once per tick; `predict` starts and
 //! `velocities` ends each substep. `momentum` removes spurious spin, `recover` replaces invalid
-//! numbers, and `sleep` skips the ticks of a cloth at rest.
+//! numbers, `elastic_corrections` counts bending after the settings changed the substep length, and
+//! `sleep` skips the ticks of a cloth at rest.
 
+pub(crate) mod elastic_corrections;
 pub(crate) mod expected_momentum;
 pub(crate) mod forces;
 pub(crate) mod impact_momentum;

@@ -16,10 +16,7 @@
 //! rounding of positions adds no momentum either.
 //!
 //! Two stages use it: all internal stages before contacts ([`remove_internal_momentum`]), and
-//! contacts of surface collision ([`remove_rigid_motion_since`]). The latter counts particles on a
-//! collider as heavy, as if the collider took the impulse. Along a floor no collider does, and
-//! crumpled paper would turn on it for ever. So on a floor the motion along it is removed as well;
-//! the motion against the floor stays.
+//! contacts of surface collision ([`remove_rigid_motion_since`]).
 //!
 //! Reads predicted positions and the displacement history; writes positions, predicted
 //! displacements, and the scratch lists `relative_wind` and `correction`, which are free at that
@@ -37,7 +34,6 @@ use crate::math::columns::Columns;
 use crate::math::simd::leveled;
 use crate::math::wide4::Float4;
 use crate::solver::bend;
-use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::integrate::momentum_sums::FreeParticles;
 use crate::solver::integrate::rigid_motion::{Component, Pivot, RigidMotion};
 use crate::solver::particle_stage::interleaved;
@@ -46,18 +42,6 @@ use crate::state::colliders::Impulse;
 use crate::state::particles::Particles;
 use crate::state::settings::BdfScheme;
 use glam::Vec3;
-
-/// Least cosine between contact normals of one floor.
-const MIN_FLOOR_COSINE: f32 = 0.999;
-
-/// What a free cloth lies on.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Support {
-    /// It touches no collider.
-    Free,
-    /// All its collider contacts have this normal.
-    Floor(Vec3),
-}
 
 /// Fixed particles of a piece: with more than two, their reactions may change every momentum.
 pub(super) const MAX_FIXED: usize = 2;
@@ -266,22 +250,19 @@ fn subtract_column(
     w: &[f32],
     share: f32,
 ) {
-    let Component { translation, rotation, center, at } = motion;
-    let points = at[0].iter().zip(at[1]).zip(w);
+    let points = motion.at[0].iter().zip(motion.at[1]).zip(w);
     for ((x, displacement), ((a, b), w)) in x.iter_mut().zip(displacement).zip(points) {
-        let turned = rotation[0] * (b - center[1]) - (a - center[0]) * rotation[1];
-        let by = if *w > 0.0 { translation + turned } else { 0.0 };
+        let by = if *w > 0.0 { motion.displacement(*a, *b) } else { 0.0 };
         let before = *x;
         *x = before - by;
         *displacement += ((*x - before) + by) * -share;
     }
 }
 
-/// Removes the rigid motion between the positions `before` and `now` from `now`. On a floor this is
-/// only the rotation about its normal and the translation along it. `before` is scratch afterwards.
+/// Removes the rigid motion between the positions `before` and `now` from `now`. `before` is scratch
+/// afterwards.
 pub(crate) fn remove_rigid_motion_since(
     world: &mut World,
-    support: Support,
     before: &mut Vec<Float4>,
     now: &mut Vec<Float4>,
 ) {
@@ -295,25 +276,13 @@ pub(crate) fn remove_rigid_motion_since(
         w: &p.w,
     };
     let rigid = RigidMotion::of_free(world.level, free);
-    let rigid = match support {
-        Support::Free => rigid,
-        Support::Floor(normal) => rigid.project_on_floor(normal),
-    };
     interleaved::subtract_rigid_motion(now, &rigid, before);
     core::mem::swap(now, before);
 }
 
-/// The support of a cloth of one piece that pins and grabs do not hold; `None` for other cloth, and
-/// for cloth whose collider contacts have several directions.
-pub(crate) fn find_support(world: &World) -> Option<Support> {
-    if world.pieces != 1 || world.is_held() {
-        return None;
-    }
-    let contacts = &world.scratch.contacts.collider_contacts;
-    let Some(first) = contacts.first() else { return Some(Support::Free) };
-    let is_on_floor =
-        |contact: &ColliderContact| contact.normal.dot(first.normal) > MIN_FLOOR_COSINE;
-    contacts.iter().all(is_on_floor).then_some(Support::Floor(first.normal))
+/// Whether the cloth is one piece that pins and grabs do not hold.
+pub(crate) fn is_one_free_piece(world: &World) -> bool {
+    world.pieces == 1 && !world.is_held()
 }
 
 impl World {

@@ -143,17 +143,6 @@ impl RigidMotion {
         Self { translation, ..self }
     }
 
-    /// The part of the motion that keeps a body on a floor with this normal: translation in the
-    /// plane of the floor and rotation about the normal.
-    pub fn project_on_floor(self, normal: Vec3) -> Self {
-        let Self { center, translation, rotation } = self;
-        Self {
-            center,
-            translation: translation - normal * translation.dot(normal),
-            rotation: normal * rotation.dot(normal),
-        }
-    }
-
     /// As `displacement_at`, for points in SIMD lanes.
     #[inline(always)]
     pub fn displacement_lanes<S: Simd>(&self, s: S, [x, y, z]: [S::F; 3]) -> [S::F; 3] {
@@ -211,10 +200,20 @@ impl PointSums {
 /// rotation[1] · (at[0] − center[0])`, where 0 and 1 are the next axes in cyclic order.
 #[derive(Clone, Copy)]
 pub(crate) struct Component<'a> {
-    pub translation: f32,
-    pub rotation: [f32; 2],
-    pub center: [f32; 2],
+    translation: f32,
+    rotation: [f32; 2],
+    center: [f32; 2],
     pub at: [&'a [f32]; 2],
+}
+
+impl Component<'_> {
+    /// The displacement of a point with these coordinates [m].
+    #[inline(always)]
+    pub fn displacement(&self, a: f32, b: f32) -> f32 {
+        let turned =
+            self.rotation[0] * (b - self.center[1]) - (a - self.center[0]) * self.rotation[1];
+        self.translation + turned
+    }
 }
 
 /// What holds a body: it leaves free the rotation about itself.

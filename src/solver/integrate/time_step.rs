@@ -17,7 +17,10 @@
 //! [`MAX_FACTOR`] times that.
 
 use crate::math::max;
+use crate::model::links::LinkKind;
+use crate::model::material::Material;
 use crate::solver::collide::relative_motion;
+use crate::solver::stretch::link_projection::is_rigid;
 use crate::solver::world::World;
 use crate::state::colliders::Impulse;
 use crate::state::settings::BdfScheme;
@@ -34,6 +37,13 @@ const STIFFNESS_STEP_DECAY: f32 = 0.9;
 /// Shortest substep whose stiffness links take on [s].
 const MIN_STIFFNESS_STEP: f32 = 2.5e-5;
 
+/// Ends of a link that move when it is corrected.
+const LINK_ENDS: f32 = 2.0;
+
+/// Ratio of the stiffness of a fold over a few cells, for which bending is solved well, to
+/// `bend_stiffness` over the fourth power of the edge length.
+const BEND_FACTOR: f32 = 8.0;
+
 /// Sets the number of substeps of the tick that starts.
 pub(crate) fn begin_tick(world: &mut World) {
     let least = world.settings.substeps;
@@ -45,8 +55,11 @@ pub(crate) fn begin_tick(world: &mut World) {
     let factor = factor.max(last_factor.saturating_sub(1));
     let substeps = least * factor;
     if substeps != world.substeps {
+        let before = world.regular_scheme().h;
         world.substeps = substeps;
         world.drop_history();
+        let after = world.regular_scheme().h;
+        world.warm_start.change_step(before, after);
         world.refresh_soft_pin_masses();
     }
     world.raise_stiffness_step();
@@ -98,9 +111,51 @@ impl World {
     /// stiffness, which approaches the new one tick by tick. Substeps below
     /// [`MIN_STIFFNESS_STEP`] count as if they had that length for ever: they would turn the
     /// rounding of positions into velocities.
+    ///
+    /// ```text
+    /// share = (h / H)² = [1 / H²] / [1 / h²]                       H: `stiffness_step`
+    /// ```
+    /// Links of a soft material count more, see [`World::compliant_share`]. Substeps that a fast
+    /// motion adds give all links the share of rigid ones, so that links carry the cloth along with
+    /// a body.
     pub fn correction_share(&self) -> f32 {
-        let ratio = self.regular_scheme().h / max(self.stiffness_step, MIN_STIFFNESS_STEP);
-        ratio * ratio
+        if is_rigid(&self.material, LinkKind::Stretch) || self.has_regular_stiffness() {
+            let ratio = self.regular_scheme().h / max(self.stiffness_step, MIN_STIFFNESS_STEP);
+            return ratio * ratio;
+        }
+        let Material { stretch_stiffness_warp, stretch_stiffness_weft, density, .. } =
+            self.material;
+        let stiffness = max(stretch_stiffness_warp, stretch_stiffness_weft);
+        self.compliant_share(LINK_ENDS * stiffness / (density * self.mean_edge * self.mean_edge))
+    }
+
+    /// Share of the correction by bending that counts as velocity.
+    pub fn bending_share(&self) -> f32 {
+        let area = self.mean_edge * self.mean_edge;
+        self.compliant_share(
+            BEND_FACTOR * self.material.bend_stiffness / (self.material.density * area * area),
+        )
+    }
+
+    /// Whether no change of the settings is left in the stiffness of corrections. Substeps that a
+    /// fast motion adds are no such change.
+    pub fn has_regular_stiffness(&self) -> bool {
+        self.stiffness_step <= self.settings.scheme(self.settings.substeps).h
+    }
+
+    /// Share of the correction of a compliant constraint that counts as velocity. `rate` is its
+    /// stiffness over mass [1/s²].
+    ///
+    /// ```text
+    /// [λ(H) / (1 + λ(H)) / H²] / [λ(h) / (1 + λ(h)) / h²] = (1 + λ(h)) / (1 + λ(H))
+    /// λ(h) = rate h²: one correction removes the share λ / (1 + λ) of a strain
+    /// ```
+    /// So soft constraints, whose stiffness does not depend on h, count in full.
+    fn compliant_share(&self, rate: f32) -> f32 {
+        let h = self.regular_scheme().h;
+        let [least, longest] = [h, self.stiffness_step].map(|step| max(step, MIN_STIFFNESS_STEP));
+        let short = h / least;
+        short * short * (1.0 + rate * least * least) / (1.0 + rate * longest * longest)
     }
 
     /// Starts a tick: longer substeps make the links softer at once.

@@ -39,7 +39,7 @@
 //! momentum.
 //!
 //! Reads `constraints`, `pin_order`, `tethers`, pins, grabs, anchors; writes positions, velocities,
-//! `over_stretched` and one event. Invariant: a link that was within the limit a tick ago is within
+//! `violations` and one event. Invariant: a link that was within the limit a tick ago is within
 //! it now.
 
 use crate::math::columns::Columns;
@@ -99,10 +99,8 @@ pub(crate) fn enforce(world: &mut World) {
 /// cannot hold. That is reported by one event, and again only after it held in between.
 pub(crate) fn report(world: &mut World) {
     let limit = 1.0 + world.settings.max_stretch;
-    world.over_stretched = over_stretched_links(world, limit).count() as u32;
-    if world.over_stretched == 0 {
-        world.over_stretch_reported = false;
-    } else if !core::mem::replace(&mut world.over_stretch_reported, true) {
+    let count = over_stretched_links(world, limit).count() as u32;
+    if world.violations.over_stretched.update(count) {
         push_event(world, limit);
     }
 }
@@ -110,7 +108,7 @@ pub(crate) fn report(world: &mut World) {
 /// Steps 2 to 4 of the module doc, for links longer than `limit` times their rest length.
 fn project_all(world: &mut World, limit: f32) {
     let target = 1.0 + world.settings.max_stretch * TARGET_SHARE;
-    let was_over = world.over_stretched > 0;
+    let was_over = world.violations.over_stretched.count > 0;
     let has_anchors = !world.anchors.is_empty();
     let is_free_again = was_over && !has_anchors && !is_held_apart(world, limit);
     tethers::refresh_pin_positions(world);
@@ -286,6 +284,6 @@ fn push_event(world: &mut World, limit: f32) {
     let middle = (world.particles.x.get(a) + world.particles.x.get(b)) * 0.5;
     let mut event = world.event_at(EventKind::HeldApart, middle);
     (event.particle_a, event.particle_b) = (a as u32, b as u32);
-    event.count = world.over_stretched;
+    event.count = world.violations.over_stretched.count;
     world.events.push(event);
 }

@@ -4,11 +4,21 @@ use crate::ffi::pointers::OutBuffer;
 use crate::ffi::stream_list::read_streams;
 use crate::ffi::versioned_struct::read_struct;
 use crate::registry::with_cloth;
-use crate::status::{CallError, MuslinStatus};
+use crate::status::{CallError, MuslinStatus, Result};
 use crate::types::stream::{MuslinStream, MuslinWriteDesc};
 use crate::types::value::MuslinCloth;
 use core::ffi::c_void;
-use muslin_core::IndexFormat;
+use muslin_core::{IndexFormat, WriteDesc};
+
+/// Reads the description of what to write; the default for NULL.
+///
+/// # Safety
+/// `desc` is NULL or points to a `MuslinWriteDesc` of the size that it states.
+pub unsafe fn read_write_desc(desc: *const MuslinWriteDesc) -> Result<WriteDesc> {
+    // SAFETY: guaranteed by the caller.
+    let given = if desc.is_null() { None } else { Some(unsafe { read_struct("desc", desc)? }) };
+    given.unwrap_or_default().try_into()
+}
 
 /// Writes vertices into your own buffers, each attribute with the format, address and stride of its
 /// stream: separate, interleaved or one after the other. Other bytes are untouched.
@@ -33,8 +43,7 @@ pub unsafe extern "C" fn muslin_cloth_write_vertices(
         // refuses buffers that overlap the cloth's own lists.
         let (streams, desc) = unsafe {
             let streams = read_streams(streams, stream_count, |bytes| cloth.lends(&bytes))?;
-            let desc = if desc.is_null() { None } else { Some(read_struct("desc", desc)?) };
-            (streams, MuslinWriteDesc::try_into(desc.unwrap_or_default())?)
+            (streams, read_write_desc(desc)?)
         };
         Ok(cloth.write_vertices(streams.as_slice(), &desc)?)
     })

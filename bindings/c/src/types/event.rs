@@ -25,6 +25,17 @@ pub const MUSLIN_EVENT_HELD_APART: u32 = 5;
 /// If the two sides of that edge have different vertices there, the next vertex belongs to the
 /// other side.
 pub const MUSLIN_EVENT_EDGE_DIVIDED: u32 = 6;
+/// Pins, attachments or grabs hold `count` particles inside a collider; `particle_a` is the first
+/// of them. Reported once, until none is inside.
+pub const MUSLIN_EVENT_HELD_INSIDE: u32 = 7;
+/// `count` particles that nothing holds are inside a collider; `particle_a` is the first of them.
+/// Reported once, until none is inside.
+///
+/// Other colliders or held cloth leave them no room, or they were placed there.
+pub const MUSLIN_EVENT_FREE_INSIDE: u32 = 8;
+/// With surface collision, edges of the cloth pass through triangles of it: `count` pairs of both.
+/// One of the edges is between `particle_a` and `particle_b`. Reported once, until none does.
+pub const MUSLIN_EVENT_LAYERS_CROSS: u32 = 9;
 
 /// An event. Fields that its kind does not mention are 0. Initialise it with muslin_event_init.
 ///
@@ -41,7 +52,7 @@ pub struct MuslinEvent {
     pub tick: u32,
     /// Position of the event [m].
     pub position: MuslinVec3,
-    /// First end of the edge.
+    /// First end of the edge, or the particle.
     pub particle_a: u32,
     /// Second end of the edge.
     pub particle_b: u32,
@@ -49,7 +60,7 @@ pub struct MuslinEvent {
     pub vertex: u32,
     /// The vertex that the new one was split off from.
     pub source: u32,
-    /// Number of triangles, particles or links.
+    /// Number of triangles, particles, links or pairs.
     pub count: u32,
 }
 
@@ -77,4 +88,7 @@ const _: () = {
     assert!(MUSLIN_EVENT_RESERVE_USED_UP == EventKind::ReserveUsedUp as u32);
     assert!(MUSLIN_EVENT_HELD_APART == EventKind::HeldApart as u32);
     assert!(MUSLIN_EVENT_EDGE_DIVIDED == EventKind::EdgeDivided as u32);
+    assert!(MUSLIN_EVENT_HELD_INSIDE == EventKind::HeldInside as u32);
+    assert!(MUSLIN_EVENT_FREE_INSIDE == EventKind::FreeInside as u32);
+    assert!(MUSLIN_EVENT_LAYERS_CROSS == EventKind::LayersCross as u32);
 };

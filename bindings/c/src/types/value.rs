@@ -63,6 +63,14 @@ pub struct MuslinAttachment {
     pub id: u32,
 }
 
+/// Handle of a skin. { 0 } is none. Stale once the skin or its cloth is destroyed.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MuslinSkin {
+    /// Identifies the skin; opaque.
+    pub id: u64,
+}
+
 impl From<Vec3> for MuslinVec3 {
     fn from(v: Vec3) -> Self {
         Self { x: v.x, y: v.y, z: v.z }

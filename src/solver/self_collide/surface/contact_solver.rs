@@ -10,6 +10,9 @@
 //! constant in the substep. Impulses have the unit kg·m: an impulse of 1 displaces 1 kg by 1 m in
 //! the substep.
 //!
+//! Before each sweep colliders push the particles that touch them back ([`ColliderContact::hold`]),
+//! so a heap of layers rests on its collider.
+//!
 //! The target of a contact is the smaller of its distance at the start and its gap. So the solver
 //! only stops the approach of both sides; [`correct_penetration`] moves sides that are nearer than
 //! the gap apart, slowly and without velocity. After velocities were derived,
@@ -19,12 +22,13 @@
 //! Reads contacts and masses; writes positions, velocities and contact forces.
 //!
 //! Invariant: each impulse acts on both sides with opposite sign, weighted by the same weights, so
-//! linear momentum is conserved up to rounding where no particle touches a collider.
+//! positions keep the linear momentum up to rounding, except for what colliders push.
 
 use crate::math::columns::Columns;
 use crate::math::simd::{Level, leveled};
 use crate::math::wide4::{Float4, Wide4};
 use crate::math::{max, min};
+use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::particle_stage::interleaved::translate_wide;
 use crate::solver::self_collide::surface::contact::{Contact, distance_along_normal};
 use crate::solver::self_collide::surface::warm_start::{ContactForce, WarmStart, WarmStartIndex};
@@ -32,10 +36,6 @@ use glam::Vec3;
 
 /// Gauss–Seidel sweeps per substep, in alternating directions.
 const SWEEPS: usize = 6;
-
-/// A particle that touches a collider counts with this share of its inverse mass: the collider
-/// supports it, so it can support the layers on top.
-pub(crate) const SUPPORTED_SHARE: f32 = 0.02;
 
 /// A new contact is an impact if the relative speed of its sides exceeds that of a body after this
 /// many substeps of free fall.
@@ -56,14 +56,6 @@ const DAMPING_TIME: f32 = 0.01;
 /// Lower bound of the inverse effective mass, as a share of the largest inverse mass in the
 /// contact. It limits the displacement of particles with small weights beside fixed ones.
 const MIN_INVERSE_MASS_SHARE: f32 = 0.005;
-
-/// Inverse mass of a particle in contacts [1/kg], and its mobility: the share of the inverse mass
-/// that counts against the other side, below 1 where a collider supports the particle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ContactMass {
-    pub w: f32,
-    pub mobility: f32,
-}
 
 /// A contact that the solver works on in this substep.
 #[derive(Clone, Copy, Debug)]
@@ -86,37 +78,47 @@ pub(crate) struct ActiveContact {
 }
 
 impl ActiveContact {
-    /// Computes response and effective mass. The side that colliders support more gets the smaller
-    /// inverse masses.
     #[inline(always)]
-    fn new(index: u32, contact: &Contact, target: f32, masses: &[ContactMass]) -> Self {
-        let all = contact.ids.map(|id| masses[id as usize]);
-        let mut mobility = [0.0; 2];
-        for (k, (weight, mass)) in contact.weights.iter().zip(all).enumerate() {
-            mobility[usize::from(k >= contact.kind as usize)] += weight.abs() * mass.mobility;
-        }
-        let most = max(mobility[0], mobility[1]);
-        let (mut sum, mut largest, mut response) = (0.0, 0.0, [0.0; 4]);
-        for k in 0..4 {
-            let side = mobility[usize::from(k >= contact.kind as usize)];
-            let weight = contact.weights[k];
-            let w = all[k].w * (side / most);
-            response[k] = weight * w;
-            sum += w * weight * weight;
-            largest = max(largest, w);
-        }
-        let effective_mass =
-            if sum > 0.0 { 1.0 / max(sum, largest * MIN_INVERSE_MASS_SHARE) } else { 0.0 };
-        Self {
+    fn new(index: u32, contact: &Contact, target: f32, inverse_masses: &[f32]) -> Self {
+        let mut state = Self {
             contact: index,
             target,
-            response,
-            effective_mass,
+            response: [0.0; 4],
+            effective_mass: 0.0,
             normal_impulse: 0.0,
             tangent_impulse: Vec3::ZERO,
             is_new: true,
             sticks: false,
+        };
+        state.set_masses(contact, inverse_masses, [1.0; 2]);
+        state
+    }
+
+    /// Reduces the inverse masses of the side that colliders support more.
+    fn count_support(&mut self, contact: &Contact, mobility: &[f32], inverse_masses: &[f32]) {
+        let mut sides = [0.0; 2];
+        for (k, (weight, id)) in contact.weights.iter().zip(contact.ids).enumerate() {
+            sides[usize::from(k >= contact.kind as usize)] += weight.abs() * mobility[id as usize];
         }
+        if sides[0] != sides[1] {
+            let most = max(sides[0], sides[1]);
+            self.set_masses(contact, inverse_masses, sides.map(|side| side / most));
+        }
+    }
+
+    /// Computes response and effective mass from the inverse masses of all particles [1/kg], of
+    /// which each side counts a share.
+    #[inline(always)]
+    fn set_masses(&mut self, contact: &Contact, inverse_masses: &[f32], shares: [f32; 2]) {
+        let (mut sum, mut largest) = (0.0, 0.0);
+        for (k, (id, weight)) in contact.ids.into_iter().zip(contact.weights).enumerate() {
+            let w = inverse_masses[id as usize] * shares[usize::from(k >= contact.kind as usize)];
+            self.response[k] = weight * w;
+            sum += w * weight * weight;
+            largest = max(largest, w);
+        }
+        let least = largest * MIN_INVERSE_MASS_SHARE;
+        self.effective_mass = if sum > 0.0 { 1.0 / max(sum, least) } else { 0.0 };
     }
 
     /// Displaces the particles of the contact by an impulse.
@@ -128,11 +130,25 @@ impl ActiveContact {
     }
 }
 
+/// Lets colliders support contacts from now on, after positions were solved: damping against a
+/// supported side damps against the collider. `mobility` has the share of the inverse mass of each
+/// particle that counts.
+pub(crate) fn count_support(
+    contacts: &[Contact],
+    active: &mut [ActiveContact],
+    mobility: &[f32],
+    inverse_masses: &[f32],
+) {
+    for state in active {
+        state.count_support(&contacts[state.contact as usize], mobility, inverse_masses);
+    }
+}
+
 /// Fills `active` with the contacts that are near enough to need the solver.
 pub(crate) fn collect_active(
     contacts: &[Contact],
     active: &mut Vec<ActiveContact>,
-    masses: &[ContactMass],
+    inverse_masses: &[f32],
     start: &[Float4],
     x: &[Float4],
 ) {
@@ -141,13 +157,14 @@ pub(crate) fn collect_active(
         let near = contact.gap * ACTIVE_DISTANCE[contact.kind as usize - 1];
         let before = distance_along_normal(start, contact);
         if min(before, distance_along_normal(x, contact)) < near {
-            active.push(ActiveContact::new(i as u32, contact, min(before, contact.gap), masses));
+            let target = min(before, contact.gap);
+            active.push(ActiveContact::new(i as u32, contact, target, inverse_masses));
         }
     }
 }
 
 /// Solves all active contacts: warm start, normal impulses, then friction. Replaces the contact
-/// forces.
+/// forces. Colliders hold the particles of `supports`, so that these carry what lies on them.
 ///
 /// `force_scale` turns an impulse into a force [1/s²].
 pub(crate) fn solve(
@@ -155,6 +172,7 @@ pub(crate) fn solve(
     contacts: &[Contact],
     active: &mut [ActiveContact],
     (forces, index): (&mut WarmStart, &mut WarmStartIndex),
+    supports: &mut [ColliderContact],
     start: &[Float4],
     x: &mut [Float4],
     friction: f32,
@@ -172,7 +190,7 @@ pub(crate) fn solve(
             state.apply_impulse(contact, x, Wide4::from_vec3(impulse));
         }
     }
-    solve_normals(level, contacts, active, x);
+    solve_normals(level, contacts, active, supports, x);
     for state in &mut *active {
         solve_friction(&contacts[state.contact as usize], state, start, x, friction);
     }
@@ -189,16 +207,27 @@ pub(crate) fn solve(
 
 leveled! {
     /// Solves the normal impulses of all active contacts.
-    fn solve_normals(contacts: &[Contact], active: &mut [ActiveContact], x: &mut [Float4])
-        = sweep_normals
+    fn solve_normals(
+        contacts: &[Contact],
+        active: &mut [ActiveContact],
+        supports: &mut [ColliderContact],
+        x: &mut [Float4],
+    ) = sweep_normals
 }
 
 #[inline(always)]
-fn sweep_normals(contacts: &[Contact], active: &mut [ActiveContact], x: &mut [Float4]) {
+fn sweep_normals(
+    contacts: &[Contact],
+    active: &mut [ActiveContact],
+    supports: &mut [ColliderContact],
+    x: &mut [Float4],
+) {
     for _ in 0..SWEEPS / 2 {
+        supports.iter_mut().for_each(|support| support.hold(x));
         for state in &mut *active {
             solve_normal(&contacts[state.contact as usize], state, x);
         }
+        supports.iter_mut().for_each(|support| support.hold(x));
         for state in active.iter_mut().rev() {
             solve_normal(&contacts[state.contact as usize], state, x);
         }
@@ -332,7 +361,7 @@ pub(crate) fn remove_impact_velocities(
 pub(crate) fn damp_contacts(
     contacts: &[Contact],
     active: &[ActiveContact],
-    masses: &[ContactMass],
+    inverse_masses: &[f32],
     v: &mut [Float4],
     h: f32,
     damp_spin: bool,
@@ -345,7 +374,7 @@ pub(crate) fn damp_contacts(
         let contact = &contacts[state.contact as usize];
         if damp_spin {
             let (one, other) = contact.ids.split_at(contact.kind as usize);
-            [one, other].into_iter().for_each(|side| blend_to_mean(side, masses, v, share));
+            [one, other].into_iter().for_each(|side| blend_to_mean(side, inverse_masses, v, share));
         }
         let relative = relative_velocity_wide(contact, v);
         let n = Wide4::from_vec3(contact.n);
@@ -357,10 +386,10 @@ pub(crate) fn damp_contacts(
 /// Moves the velocities of a side towards that of its centre of mass by `share`. Does nothing if a
 /// particle is fixed.
 #[inline(always)]
-fn blend_to_mean(side: &[u32], masses: &[ContactMass], v: &mut [Float4], share: f32) {
+fn blend_to_mean(side: &[u32], inverse_masses: &[f32], v: &mut [Float4], share: f32) {
     let (mut sum, mut mass) = (Wide4::splat(0.0), 0.0);
     for id in side {
-        let w = masses[*id as usize].w;
+        let w = inverse_masses[*id as usize];
         if w <= 0.0 {
             return;
         }

@@ -63,6 +63,7 @@ mod cluster_pairs;
 mod contact;
 mod contact_graph;
 mod contact_solver;
+pub(crate) mod crossing_report;
 mod detection;
 mod narrow_phase;
 mod non_crossing;

@@ -16,7 +16,7 @@ use crate::solver::self_collide::connected_pieces::piece_of_sites;
 use crate::solver::self_collide::surface::cluster_bvh::ClusterBvh;
 use crate::solver::self_collide::surface::contact::Contact;
 use crate::solver::self_collide::surface::contact_graph::ContactGraph;
-use crate::solver::self_collide::surface::contact_solver::{ActiveContact, ContactMass};
+use crate::solver::self_collide::surface::contact_solver::ActiveContact;
 use crate::solver::self_collide::surface::detection::{CandidateLists, new_escaped_batch};
 use crate::solver::self_collide::surface::narrow_phase::NarrowPhase;
 use crate::solver::self_collide::surface::separation_test::CandidatePairs;
@@ -35,8 +35,6 @@ pub(crate) struct SurfaceCollision {
     pub bvh: ClusterBvh,
     pub motion: SweptParticles,
     pub tick_bounds: TickBounds,
-    /// Masses of the particles in contacts.
-    pub masses: Vec<ContactMass>,
     /// Scratch: positions before the contact solver, or velocities relative to the rigid motion.
     pub vectors: Vec<Float4>,
     /// Indices of the cluster pairs that may meet in this substep.
@@ -54,6 +52,8 @@ pub(crate) struct SurfaceCollision {
     pub has_detected: bool,
     /// Contacts that the contact solver works on in this substep.
     pub active: Vec<ActiveContact>,
+    /// For each particle the share of its inverse mass that counts in the damping of contacts.
+    pub mobility: Vec<f32>,
     pub graph: ContactGraph,
     /// Planes of the colliders that particles touch in this substep.
     pub planes: SupportPlanes,
@@ -81,7 +81,6 @@ impl SurfaceCollision {
             bvh: ClusterBvh::new(mesh, rest, &pieces, capacity),
             motion: SweptParticles::new(capacity),
             tick_bounds: TickBounds::new(capacity),
-            masses: Vec::with_capacity(capacity),
             vectors: Vec::with_capacity(capacity),
             pairs: Vec::with_capacity(8 * count),
             candidates: CandidateLists::new(count),
@@ -92,6 +91,7 @@ impl SurfaceCollision {
             separated: Vec::with_capacity(2 * count),
             has_detected: false,
             active: Vec::with_capacity(24 * count),
+            mobility: Vec::with_capacity(capacity),
             graph: ContactGraph::new(capacity, 24 * count),
             planes: SupportPlanes::new(capacity),
             leaders: Vec::with_capacity(capacity),
@@ -110,7 +110,8 @@ impl SurfaceCollision {
         let words = self.open.capacity()
             + self.pieces.capacity()
             + self.leaders.capacity()
-            + self.pairs.capacity();
+            + self.pairs.capacity()
+            + self.mobility.capacity();
         self.bvh.bytes()
             + self.motion.bytes()
             + self.tick_bounds.bytes()
@@ -121,7 +122,6 @@ impl SurfaceCollision {
             + self.escaped_candidates.bytes()
             + self.candidates.bytes()
             + self.narrow_phase.iter().map(NarrowPhase::bytes).sum::<usize>()
-            + size_of::<ContactMass>() * self.masses.capacity()
             + size_of::<Float4>() * self.vectors.capacity()
             + size_of::<Contact>() * self.contacts.capacity()
             + size_of::<ActiveContact>() * self.active.capacity()

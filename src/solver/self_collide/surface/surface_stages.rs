@@ -22,7 +22,7 @@ use crate::solver::integrate::momentum;
 use crate::solver::integrate::momentum_sums::FreeParticles;
 use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::particle_stage::interleaved;
-use crate::solver::self_collide::surface::contact_solver::{self, ContactMass, SUPPORTED_SHARE};
+use crate::solver::self_collide::surface::contact_solver;
 use crate::solver::self_collide::surface::detection::{DetectedContacts, Detector};
 use crate::solver::self_collide::surface::rest_gap::RestGap;
 use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
@@ -250,6 +250,10 @@ impl SurfaceCollision {
     }
 }
 
+/// A particle that a collider supports counts with this share of its inverse mass in the damping of
+/// contacts, and in the non-crossing pass if the collider projected it out.
+const SUPPORTED_SHARE: f32 = 0.02;
+
 /// Starts a tick, or the part of it after tears, at the current positions.
 pub(crate) fn begin_tick(world: &mut World) {
     let Some(mut surface) = world.surface_collision.take() else {
@@ -277,15 +281,14 @@ pub(crate) fn detect_contacts(world: &mut World) {
     let Some(mut surface) = world.surface_collision.take() else {
         return;
     };
+    collide::second_response::store_heights(world);
     interleaved::gather(&mut surface.motion.now, &world.particles.x, &world.particles.w);
-    surface.masses.clear();
-    let masses = world.particles.w.iter().map(|w| ContactMass { w: *w, mobility: 1.0 });
-    surface.masses.extend(masses);
     surface.planes.reset(world.particles.len());
+    surface.mobility.clear();
+    surface.mobility.resize(world.particles.len(), 1.0);
     for contact in &world.scratch.contacts.collider_contacts {
         let i = contact.particle as usize;
-        surface.motion.now[i][3] = world.particles.w[i] * SUPPORTED_SHARE;
-        surface.masses[i].mobility = SUPPORTED_SHARE;
+        surface.mobility[i] = SUPPORTED_SHARE;
         if contact.weight == 1.0 {
             let slack = contact.gap * (1.0 - collide::PROJECTION_GAP);
             let at = world.particles.x.get(i) - contact.normal * slack;
@@ -304,19 +307,12 @@ pub(crate) fn solve_contacts(world: &mut World) {
         return;
     };
     let SurfaceCollision {
-        contacts,
-        active,
-        warm_start_index,
-        motion,
-        masses,
-        vectors,
-        intersections,
-        ..
+        contacts, active, warm_start_index, motion, vectors, intersections, ..
     } = &mut *surface;
     let SweptParticles { start, now, .. } = &mut *motion;
-    contact_solver::collect_active(contacts, active, masses, start, now);
-    let support = if active.is_empty() { None } else { momentum::find_support(world) };
-    if support.is_some() {
+    contact_solver::collect_active(contacts, active, &world.particles.w, start, now);
+    let is_free = !active.is_empty() && momentum::is_one_free_piece(world);
+    if is_free {
         vectors.clone_from(now);
     }
     let force_scale = 1.0 / (scheme.velocity_step * scheme.velocity_step);
@@ -325,19 +321,30 @@ pub(crate) fn solve_contacts(world: &mut World) {
         contacts,
         active,
         (&mut world.warm_start, warm_start_index),
+        &mut world.scratch.contacts.collider_contacts,
         start,
         now,
         friction,
         force_scale,
     );
-    if let Some(support) = support {
-        momentum::remove_rigid_motion_since(world, support, vectors, now);
+    if is_free {
+        // What colliders pushed meanwhile stays.
+        for contact in &world.scratch.contacts.collider_contacts {
+            let pushed = &mut vectors[contact.particle as usize];
+            interleaved::translate(pushed, contact.normal * contact.pushed);
+        }
+        momentum::remove_rigid_motion_since(world, vectors, now);
     }
     let predicted = &mut world.scratch.predicted;
     contact_solver::correct_penetration(contacts, active, now, predicted, scheme.h);
     intersections.resolve(motion, predicted);
     interleaved::scatter(&motion.now, &mut world.particles.x);
+    let has_contacts = !active.is_empty();
     world.surface_collision = Some(surface);
+    if has_contacts {
+        collide::second_response::apply(world);
+        gather_positions(world);
+    }
 }
 
 /// Gathers the current positions, which other stages changed.
@@ -446,15 +453,17 @@ pub(crate) fn damp_velocities(world: &mut World) {
     let Some(mut surface) = world.surface_collision.take() else {
         return;
     };
-    let SurfaceCollision { contacts, active, open, masses, motion, vectors, intersections, .. } =
-        &mut *surface;
+    let SurfaceCollision {
+        contacts, active, open, mobility, motion, vectors, intersections, ..
+    } = &mut *surface;
+    contact_solver::count_support(contacts, active, mobility, &world.particles.w);
     let is_free = world.scratch.contacts.collider_contacts.is_empty()
         && !interleaved::has_fixed_particle(&motion.start);
     let p = &mut world.particles;
     contact_solver::detect_impacts(contacts, active, &p.v, fall_speed, open);
     for columns in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
         contact_solver::remove_impact_velocities(contacts, active, open, columns);
-        intersections.remove_deepening_velocities(masses, columns);
+        intersections.remove_deepening_velocities(&p.w, columns);
         if !active.is_empty() {
             let particles = FreeParticles {
                 x: p.x.slices(),
@@ -464,7 +473,7 @@ pub(crate) fn damp_velocities(world: &mut World) {
             };
             let rigid = RigidMotion::of_free(world.level, particles);
             interleaved::gather_relative(&rigid, &p.x, columns, vectors);
-            contact_solver::damp_contacts(contacts, active, masses, vectors, h, !is_free);
+            contact_solver::damp_contacts(contacts, active, &p.w, vectors, h, !is_free);
             interleaved::scatter_relative(&rigid, &p.x, vectors, columns);
         }
     }

@@ -30,7 +30,6 @@ use crate::solver::particle_stage::interleaved::translate;
 use crate::solver::self_collide::connected_pieces::find_root;
 use crate::solver::self_collide::surface::cluster_bvh::ClusterBvh;
 use crate::solver::self_collide::surface::contact::{Contact, ContactKind, MIN_DISTANCE};
-use crate::solver::self_collide::surface::contact_solver::ContactMass;
 use crate::solver::self_collide::surface::speculative::SpeculativeContact;
 use crate::solver::self_collide::surface::swept_particles::SweptParticles;
 use glam::Vec3;
@@ -95,6 +94,15 @@ impl SurfaceIntersections {
 
     pub fn is_empty(&self) -> bool {
         self.intersections.is_empty()
+    }
+
+    pub fn len(&self) -> usize {
+        self.intersections.len()
+    }
+
+    /// Returns the edge of the first intersection: its two particles.
+    pub fn first_edge(&self) -> Option<[u32; 2]> {
+        self.intersections.first().map(|intersection| [intersection.ids[0], intersection.ids[1]])
     }
 
     pub fn clear(&mut self) {
@@ -369,21 +377,18 @@ impl SurfaceIntersections {
     }
 
     /// Removes the part of the velocities that deepens an intersection.
-    ///
-    /// Particles count with their full inverse masses: with those of supported contacts, crumpled
-    /// cloth on a collider would gain energy.
     #[inline(never)]
-    pub fn remove_deepening_velocities(&self, masses: &[ContactMass], velocities: &mut Columns) {
+    pub fn remove_deepening_velocities(&self, inverse_masses: &[f32], velocities: &mut Columns) {
         for EdgeIntersection { ids, weights, direction, .. } in &self.intersections {
             let all = ids.map(|id| id as usize).into_iter().zip(*weights);
             let (mut speed, mut sum) = (0.0, 0.0);
             for (id, weight) in all.clone() {
                 speed += weight * direction.dot(velocities.get(id));
-                sum += weight * weight * masses[id].w;
+                sum += weight * weight * inverse_masses[id];
             }
             if speed < 0.0 && sum > 0.0 {
                 for (id, weight) in all {
-                    velocities.add(id, *direction * (-speed * weight * masses[id].w / sum));
+                    velocities.add(id, *direction * (-speed * weight * inverse_masses[id] / sum));
                 }
             }
         }

@@ -4,8 +4,10 @@
 //! up a stack. If they start at the last solution, they converge over many substeps (Catto,
 //! "Iterative Dynamics with Temporal Coherence", GDC 2005).
 //!
-//! Forces are stored, not impulses, so that the step size may change between substeps. They are
-//! part of a saved state and of the state hash.
+//! Forces are stored, not impulses, so that the step size may change between substeps. The force
+//! that holds up a stack keeps its size when substeps become longer; that of an impact m v / h falls
+//! as 1 / h, and would throw layers apart if it did not. So all fall as 1 / h then, and the solver
+//! adds what a stack lacks. They are part of a saved state and of the state hash.
 //!
 //! Reads and writes its own lists. [`WarmStartIndex`] is a hash table with open addressing, from
 //! the particles of a contact to its force.
@@ -51,6 +53,19 @@ impl WarmStart {
 
     pub fn clear(&mut self) {
         self.0.clear();
+    }
+
+    /// Reduces the forces when the substep length changes from `before` to `after` [s] and grows.
+    pub fn change_step(&mut self, before: f32, after: f32) {
+        if before < after {
+            let share = before / after;
+            self.0.iter_mut().for_each(|force| {
+                force.normal *= share;
+                force.tangent *= share;
+            });
+            // The smallest forces round to zero.
+            self.0.retain(ContactForce::is_valid);
+        }
     }
 
     pub fn iter(&self) -> impl Iterator<Item = &ContactForce> {

@@ -1,28 +1,27 @@
-//! Factors of the alternating direction method (ADI) of `plate`, for one shift.
+//! Factors of the two directions of `plate`, for one shift.
 //!
 //! ```text
 //! (µM + h² K_weft)   one pentadiagonal system per row
 //! (µM + h² K_warp)   one pentadiagonal system per column
 //! ```
-//! Method: Peaceman and Rachford 1955, with the shifts µ of Wachspress; see `plate`.
+//! Method: see `plate` and `banded`.
 //!
 //! Reads element weights, masses and inverse masses; writes the factors.
 //! Invariant: the factors belong to the stored stiffness and shift; a stiffness of −1 marks none.
 
-use crate::math::simd::{Level, leveled};
 use crate::model::plate_elements::{PerKind, PlateElements};
-use crate::solver::bend::banded::{GridLine, PentadiagonalFactor, VectorColumns};
+use crate::solver::bend::banded::{GridLine, PentadiagonalFactor};
 
 /// Factors of both directions for one shift µ.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct AdiFactors {
+pub(crate) struct LineFactors {
     pub stiffness: f32,
     pub shift: f32,
     pub weft: PentadiagonalFactor,
     pub warp: PentadiagonalFactor,
 }
 
-impl AdiFactors {
+impl LineFactors {
     /// Allocates factors for `count` particles; no stiffness is factored yet.
     pub fn new(count: usize) -> Self {
         let (weft, warp) = (PentadiagonalFactor::new(count), PentadiagonalFactor::new(count));
@@ -47,22 +46,5 @@ impl AdiFactors {
             let line = GridLine { first: column, step: columns, count: rows };
             self.warp.factor(line, &weight[1], w, mass, stiffness, shift);
         }
-    }
-
-    /// Multiplies by µ M, between the two directions.
-    pub fn scale_by_shifted_mass(&self, level: Level, mass: &[f32], force: &mut VectorColumns) {
-        force.iter_mut().for_each(|force| scale_by_mass(level, force, mass, self.shift));
-    }
-}
-
-leveled! {
-    /// Multiplies forces by mass and shift.
-    fn scale_by_mass(force: &mut [f32], mass: &[f32], shift: f32) = scale_by_mass_lanes
-}
-
-#[inline(always)]
-fn scale_by_mass_lanes(force: &mut [f32], mass: &[f32], shift: f32) {
-    for (force, mass) in force.iter_mut().zip(mass) {
-        *force *= mass * shift;
     }
 }

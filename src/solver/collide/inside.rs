@@ -1,0 +1,84 @@
+//! Reports particles that are inside a collider when a tick ends: those that pins, attachments or
+//! grabs hold there, and those that two colliders, or a collider and held cloth, leave no room.
+//!
+//! Reads positions, inverse masses, colliders and the blocks near them; writes `violations` and
+//! events. Invariant: the cloth does not move.
+
+use crate::geometry::collision_shape::CollisionShape;
+use crate::solver::collide::distance_cull;
+use crate::solver::collide::nearby_blocks::BLOCK;
+use crate::solver::world::World;
+use crate::state::events::EventKind;
+
+/// The depth from which a particle counts as inside [m].
+const DEPTH: f32 = 1.0e-4;
+
+/// Particles inside a collider: how many, and the first.
+#[derive(Clone, Copy, Debug, Default)]
+struct Found {
+    count: u32,
+    first: u32,
+}
+
+impl Found {
+    fn add(&mut self, particle: u32) {
+        if self.count == 0 || particle < self.first {
+            self.first = particle;
+        }
+        self.count += 1;
+    }
+}
+
+/// Counts the particles inside colliders, and reports them by one event each for held and for free
+/// ones. Nothing is inside a triangle mesh, which has two sides.
+pub(crate) fn report(world: &mut World) {
+    let [held, free] = find(world);
+    if world.violations.held_inside.update(held.count) {
+        push_event(world, EventKind::HeldInside, held);
+    }
+    if world.violations.free_inside.update(free.count) {
+        push_event(world, EventKind::FreeInside, free);
+    }
+}
+
+#[inline(never)]
+fn push_event(world: &mut World, kind: EventKind, found: Found) {
+    let mut event = world.event_at(kind, world.particles.x.get(found.first as usize));
+    (event.particle_a, event.count) = (found.first, found.count);
+    world.events.push(event);
+}
+
+/// Returns the held particles and the free ones that are inside a collider.
+fn find(world: &World) -> [Found; 2] {
+    let mut found = [Found::default(); 2];
+    let contacts = &world.scratch.contacts;
+    let count = world.particles.len();
+    for (at, body) in world.colliders.iter().take(contacts.nearby.entries.len()).enumerate() {
+        let Some(shape) = body.collision_shape() else { continue };
+        if matches!(shape, CollisionShape::TriangleSurface(..)) {
+            continue;
+        }
+        let (frame, bound) = (body.next.to_transform(), shape.distance_bound());
+        for block in contacts.nearby.of_collider(at).particle_blocks {
+            let first = *block as usize * BLOCK;
+            let range = first..(first + BLOCK).min(count);
+            let x = &world.particles.x;
+            if !distance_cull::is_any_below(world.level, x, &frame, bound, range.clone(), -DEPTH) {
+                continue;
+            }
+            for i in range.filter(|i| first_body_around(world, *i) == Some(at)) {
+                found[usize::from(world.particles.w[i] > 0.0)].add(i as u32);
+            }
+        }
+    }
+    found
+}
+
+/// Returns the first collider that a particle is inside of, among the live ones.
+fn first_body_around(world: &World, particle: usize) -> Option<usize> {
+    let x = world.particles.x.get(particle);
+    world.colliders.iter().position(|body| {
+        let frame = body.next.to_transform();
+        body.collision_shape().is_some_and(|shape| shape.depth(frame.point_to_local(x)) > DEPTH)
+    })
+}
