@@ -31,6 +31,7 @@ mod particle_state;
 mod pins;
 mod postcard;
 pub(crate) mod query;
+mod ray_tree;
 mod save;
 pub(crate) mod skin;
 mod state_hash;
@@ -49,6 +50,7 @@ use crate::cloth::build::ClothDesc;
 use crate::cloth::change_history::ChangeHistory;
 use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::cloth::outputs::Outputs;
+use crate::cloth::ray_tree::RayTree;
 use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
@@ -74,6 +76,8 @@ use crate::state::events::Event;
 ///   up by default.
 /// - **Memory** for tears is reserved when the cloth is made (`extra_particles`), so a tick
 ///   allocates nothing.
+/// - **Threads**: a cloth is `Send` and `Sync`. Calls that change nothing may run on several threads
+///   at once.
 ///
 /// ```
 /// use muslin::glam::Vec3;
@@ -115,6 +119,8 @@ pub struct Cloth {
     topology_revision: u32,
     state_revision: u32,
     history: ChangeHistory,
+    /// Built by the first ray; a cloned cloth builds its own.
+    ray_tree: RayTree,
 }
 
 impl Clone for Cloth {
@@ -131,6 +137,7 @@ impl Clone for Cloth {
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
             history: self.history.clone(),
+            ray_tree: RayTree::default(),
         };
         // A cloned `Vec` has no spare capacity: reserve again what tears may need.
         copy.world.reserve(self.world.capacity());
@@ -217,6 +224,7 @@ impl Cloth {
             topology_revision: 1,
             state_revision: 1,
             history: ChangeHistory::new(),
+            ray_tree: RayTree::default(),
         })
     }
 

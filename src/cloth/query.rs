@@ -1,11 +1,12 @@
 //! Queries: ray casts and the links of the solver.
 //!
-//! Ray against triangle: Möller and Trumbore, JGT 1997, in `geometry::ray`.
+//! Rays walk the tree of `ray_tree`.
 //!
-//! Reads `World`; writes nothing.
+//! Reads `World`; writes only the cached tree.
 //! Invariant: of equally near hits, the one with the lowest index is returned.
 
 use crate::cloth::Cloth;
+use crate::cloth::ray_tree::{HitSearch, ParticleSearch};
 use crate::error::{Result, check, check_finite};
 use crate::geometry::ray::Ray;
 use crate::math::float_env::with_float_env;
@@ -47,8 +48,12 @@ impl Cloth {
     /// Returns the first triangle that a ray hits within `max_distance` [m], from either side;
     /// `None` if it hits nothing.
     ///
-    /// `direction` need not have length 1; `max_distance` may be infinite. Every triangle is tested
-    /// at its current position.
+    /// `direction` need not have length 1; `max_distance` may be infinite. Of equally near triangles
+    /// the one with the lowest index is returned.
+    ///
+    /// The first ray builds a tree over the triangles, and the first one after positions changed
+    /// updates it; further rays take time in proportion to the depth of the tree. The tree is no part
+    /// of a save or of the hash, and takes no memory before the first ray.
     ///
     /// ```
     /// use muslin::glam::Vec3;
@@ -78,54 +83,43 @@ impl Cloth {
 
     /// Returns the nearest hit of a relative ray within `max_distance`.
     pub(super) fn first_hit(&self, ray: &Ray, max_distance: f32) -> Option<Hit> {
-        let x = &self.world.particles.x;
-        let mut first: Option<Hit> = None;
-        for (index, vertices) in self.world.mesh.triangles.iter().enumerate() {
-            let corners = vertices.map(|v| x.get(v as usize));
-            let Some(intersection) = ray.intersect_triangle(corners) else {
-                continue;
-            };
-            let nearest_so_far = first.map_or(max_distance, |hit| hit.distance);
-            let is_nearer = intersection.distance < nearest_so_far
-                || (first.is_none() && intersection.distance <= max_distance);
-            if !is_nearer {
-                continue;
+        let mut search = HitSearch::new(&self.world, ray, max_distance);
+        self.ray_tree.visit(&self.world, self.revisions(), &mut search);
+        let (triangle, hit) = search.first?;
+        let vertices = self.world.mesh.triangles[triangle as usize];
+        let corners = vertices.map(|v| self.world.particles.x.get(v as usize));
+        let [a, b, c] = corners;
+        let position = ray.origin + ray.direction * hit.distance;
+        let normal = (b - a).cross(c - a);
+        let facing = if normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
+        let distance2 = |corner: usize| (corners[corner] - position).length_squared();
+        let mut nearest = 0;
+        for corner in 1..3 {
+            if distance2(corner) < distance2(nearest) {
+                nearest = corner;
             }
-            let [a, b, c] = corners;
-            let position = ray.origin + ray.direction * intersection.distance;
-            let normal = (b - a).cross(c - a);
-            let facing = if normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
-            let distance2 = |corner: usize| (corners[corner] - position).length_squared();
-            let mut nearest = 0;
-            for corner in 1..3 {
-                if distance2(corner) < distance2(nearest) {
-                    nearest = corner;
-                }
-            }
-            first = Some(Hit {
-                triangle: index as u32,
-                particle: vertices[nearest],
-                u: intersection.u,
-                v: intersection.v,
-                distance: intersection.distance,
-                position: self.world.to_absolute(position),
-                normal: normal * (facing / normal.length()),
-            });
         }
-        first
+        Some(Hit {
+            triangle,
+            particle: vertices[nearest],
+            u: hit.u,
+            v: hit.v,
+            distance: hit.distance,
+            position: self.world.to_absolute(position),
+            normal: normal * (facing / normal.length()),
+        })
     }
 
     /// Returns the particle nearest to a relative ray, within `radius`.
     pub(super) fn nearest_to(&self, ray: &Ray, radius: f32) -> Option<u32> {
-        let mut nearest = None;
-        let mut least = radius;
-        for (particle, x) in self.world.particles.x.iter().enumerate() {
-            let distance = ray.distance_to_point(x);
-            if distance < least || (nearest.is_none() && distance <= least) {
-                (nearest, least) = (Some(particle as u32), distance);
-            }
-        }
-        nearest
+        let mut search = ParticleSearch::new(&self.world, ray, radius);
+        self.ray_tree.visit(&self.world, self.revisions(), &mut search);
+        search.nearest
+    }
+
+    /// Revisions of triangles and positions, of which the ray tree must be.
+    fn revisions(&self) -> [u32; 2] {
+        [self.topology_revision, self.state_revision]
     }
 }
 

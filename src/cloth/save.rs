@@ -20,6 +20,7 @@ use crate::cloth::build::ClothDesc;
 use crate::cloth::change_history::ChangeHistory;
 use crate::cloth::outputs::Outputs;
 use crate::cloth::postcard;
+use crate::cloth::ray_tree::RayTree;
 use crate::error::{Error, Result};
 use crate::math::columns::Columns;
 use crate::math::float_env::with_float_env;
@@ -334,6 +335,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
         topology_revision: saved.topology_revision,
         state_revision: saved.state_revision,
         history: ChangeHistory::new(),
+        ray_tree: RayTree::default(),
     })
 }
 

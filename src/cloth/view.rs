@@ -274,6 +274,7 @@ impl Cloth {
             + world.tethers.bytes()
             + self.outputs.surface.bytes()
             + self.outputs.relative_bytes()
+            + self.ray_tree.bytes()
             + world.particle_collision.as_ref().map_or(0, |pairs| pairs.bytes())
             + world.warm_start.bytes()
             + world.surface_collision.as_ref().map_or(0, |surface| surface.bytes());

@@ -1,4 +1,4 @@
-//! A bounding volume hierarchy (BVH): a binary tree of AABBs over static items.
+//! A bounding volume hierarchy (BVH): a binary tree of AABBs over numbered items.
 //!
 //! Built top down: each node is split at the median of the box centers along its longest axis,
 //! until a leaf holds at most four items. Nodes are stored in depth-first order with a skip index,
@@ -9,11 +9,14 @@
 //!         │          └─ node 3 (leaf)
 //!         └─ node 4 (leaf)
 //! ```
-//! Reads the boxes of the items once, at construction; queries read only the tree.
-//! Invariant: the tree and the order of query results depend on the boxes alone.
+//! Reads the boxes of the items at construction, and again to refit the tree to items that moved;
+//! queries read only the tree.
+//! Invariant: the tree and the order of query results depend on the boxes alone, and the bounds of
+//! a node contain the boxes of its items.
 
 use crate::geometry::aabb::Aabb;
-use crate::math::sort::sort_by;
+use crate::math::sort::{select_by, sort_by};
+use core::cmp::Ordering;
 use core::ops::Range;
 use glam::Vec3;
 
@@ -38,21 +41,44 @@ struct BvhNode {
     items: Range<u32>,
 }
 
+/// A search for the best item of a tree: the one of least distance, in some sense.
+pub(crate) trait Visitor {
+    /// Returns a lower bound of the distance of all items within `bounds`; `None` if none of them
+    /// counts.
+    fn least_distance(&self, bounds: &Aabb) -> Option<f32>;
+
+    /// Returns the distance up to which an item may still be the best.
+    fn limit(&self) -> f32;
+
+    /// Visits an item.
+    fn visit(&mut self, item: u32);
+}
+
+/// More than the depth of any tree: halving 2³² items takes 32 levels.
+const MAX_DEPTH: usize = 40;
+
+/// Returns whether a distance is at most `limit`; true if it is NaN.
+fn is_near(distance: f32, limit: f32) -> bool {
+    distance.partial_cmp(&limit) != Some(Ordering::Greater)
+}
+
 impl Bvh {
     /// Builds the tree over one item per box. `bounds` must not be empty.
     pub fn build(bounds: &[Aabb]) -> Self {
-        let order = (0..bounds.len() as u32).collect();
-        let mut tree = Self { nodes: Vec::new(), order };
-        tree.build_subtree(bounds, 0..bounds.len());
+        let mut tree = Self { nodes: Vec::new(), order: Vec::new() };
+        let mut items: Vec<(f32, u32)> = (0..bounds.len() as u32).map(|item| (0.0, item)).collect();
+        tree.build_subtree(bounds, &mut items, 0);
+        tree.order = items.into_iter().map(|(_, item)| item).collect();
         tree
     }
 
-    fn build_subtree(&mut self, bounds: &[Aabb], items: Range<usize>) {
+    /// Appends the nodes over `items`, of which the first has number `start` in the tree's order.
+    fn build_subtree(&mut self, bounds: &[Aabb], items: &mut [(f32, u32)], start: usize) {
         let mut all = Aabb::EMPTY;
-        self.order[items.clone()].iter().for_each(|item| all.merge(&bounds[*item as usize]));
+        items.iter().for_each(|(_, item)| all.merge(&bounds[*item as usize]));
         let at = self.nodes.len();
         let is_leaf = items.len() <= LEAF;
-        let own = if is_leaf { items.start as u32..items.end as u32 } else { 0..0 };
+        let own = if is_leaf { start as u32..(start + items.len()) as u32 } else { 0..0 };
         self.nodes.push(BvhNode { bounds: all, skip: 0, items: own });
         if !is_leaf {
             let size = all.half_extents();
@@ -63,15 +89,83 @@ impl Bvh {
             } else {
                 2
             };
-            let middle = items.start + items.len() / 2;
-            let center = |item: &u32| bounds[*item as usize].center()[axis];
+            for (center, item) in items.iter_mut() {
+                *center = bounds[*item as usize].center()[axis];
+            }
             // Ties are broken by number, so that the order is unique.
-            let order = &mut self.order[items.clone()];
-            sort_by(order, |a, b| center(a).total_cmp(&center(b)).then(a.cmp(b)));
-            self.build_subtree(bounds, items.start..middle);
-            self.build_subtree(bounds, middle..items.end);
+            let order = |a: &(f32, u32), b: &(f32, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+            let middle = items.len() / 2;
+            // Leaves list their items in ascending order.
+            if middle <= LEAF {
+                sort_by(items, order);
+            } else {
+                select_by(items, middle, order);
+            }
+            let (low, high) = items.split_at_mut(middle);
+            self.build_subtree(bounds, low, start);
+            self.build_subtree(bounds, high, start + middle);
         }
         self.nodes[at].skip = self.nodes.len() as u32;
+    }
+
+    /// Recomputes the bounds of all nodes from the boxes that the items have now. The tree keeps its
+    /// shape, so that it stays efficient while neighbours stay near each other.
+    pub fn refit(&mut self, bounds: &dyn Fn(u32) -> Aabb) {
+        for at in (0..self.nodes.len()).rev() {
+            let mut all = Aabb::EMPTY;
+            let items = &self.nodes[at].items;
+            if items.is_empty() {
+                let second = self.nodes[at + 1].skip as usize;
+                [at + 1, second].iter().for_each(|child| all.merge(&self.nodes[*child].bounds));
+            } else {
+                let items = &self.order[items.start as usize..items.end as usize];
+                items.iter().for_each(|item| all.merge(&bounds(*item)));
+            }
+            self.nodes[at].bounds = all;
+        }
+    }
+
+    /// Visits the items that may be the best, those of nearer nodes first.
+    pub fn visit(&self, visitor: &mut dyn Visitor) {
+        let mut pending = [(0.0, 0); MAX_DEPTH];
+        let mut count = 0;
+        let distance = |visitor: &dyn Visitor, node: usize| {
+            let distance = visitor.least_distance(&self.nodes[node].bounds);
+            distance.filter(|distance| is_near(*distance, visitor.limit()))
+        };
+        let mut next = distance(visitor, 0).map(|_| 0);
+        while let Some(at) = next {
+            let node = &self.nodes[at];
+            next = None;
+            if node.items.is_empty() {
+                let children = [at + 1, self.nodes[at + 1].skip as usize];
+                match children.map(|child| distance(visitor, child)) {
+                    [None, None] => {}
+                    [Some(_), None] => next = Some(children[0]),
+                    [None, Some(_)] => next = Some(children[1]),
+                    [Some(a), Some(b)] => {
+                        let (near, far) = if b < a { (1, 0) } else { (0, 1) };
+                        pending[count] = ([a, b][far], children[far]);
+                        count += 1;
+                        next = Some(children[near]);
+                    }
+                }
+            } else {
+                for item in &self.order[node.items.start as usize..node.items.end as usize] {
+                    visitor.visit(*item);
+                }
+            }
+            while next.is_none() && count > 0 {
+                count -= 1;
+                let (distance, node) = pending[count];
+                next = is_near(distance, visitor.limit()).then_some(node);
+            }
+        }
+    }
+
+    /// Memory use [bytes].
+    pub fn bytes(&self) -> usize {
+        size_of::<BvhNode>() * self.nodes.capacity() + size_of::<u32>() * self.order.capacity()
     }
 
     /// Returns the bounds of all items.

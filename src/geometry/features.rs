@@ -21,7 +21,7 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
-use crate::math::sort::{sort, sort_by};
+use crate::math::sort::{sort_by, sort_groups};
 use glam::Vec3;
 
 /// How much a surface bends at a feature.
@@ -305,7 +305,7 @@ impl ShapeFeatures {
                 edges.push(([from.min(to), from.max(to)], opposite));
             }
         }
-        sort(&mut edges);
+        sort_groups(&mut edges, |([low, _], _)| *low);
         let (mut features, mut bends) = (Features::default(), BendHistogram::default());
         let mut ends = Vec::new();
         for edge in edges.chunk_by(|a, b| a.0 == b.0) {
@@ -318,15 +318,16 @@ impl ShapeFeatures {
             };
             bends.insert(feature.bend);
             let [from, to] = edge[0].0;
-            ends.extend([(from, to, features.edges.len()), (to, from, features.edges.len())]);
+            let edge = features.edges.len() as u32;
+            ends.extend([([from, to], edge), ([to, from], edge)]);
             features.edges.push(feature);
         }
-        sort(&mut ends);
-        for own in ends.chunk_by(|a, b| a.0 == b.0) {
-            let at = positions[own[0].0 as usize];
+        sort_groups(&mut ends, |([from, _], _)| *from);
+        for own in ends.chunk_by(|a, b| a.0[0] == b.0[0]) {
+            let at = positions[own[0].0[0] as usize];
             let edges: Vec<(Vec3, EdgeFeature)> = own
                 .iter()
-                .map(|(_, to, edge)| (positions[*to as usize], features.edges[*edge]))
+                .map(|([_, to], edge)| (positions[*to as usize], features.edges[*edge as usize]))
                 .collect();
             features.push_vertex(at, edges.into_iter());
         }

@@ -1,10 +1,13 @@
-//! Rays: intersection with triangles, and distance to points.
+//! Rays: intersection with triangles and boxes, and distance to points.
 //!
-//! Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", JGT 1997.
+//! Triangles: Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", JGT 1997.
+//! Boxes: slabs (Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986).
 //!
 //! Reads the ray and the triangle, and writes nothing.
 //! Invariant: the direction has length one, so the ray parameter is a distance [m].
 
+use crate::geometry::aabb::Aabb;
+use crate::math::{max, min};
 use glam::Vec3;
 
 /// A half line.
@@ -24,6 +27,41 @@ pub(crate) struct RayHit {
     /// Barycentric coordinates of the second and third corner.
     pub u: f32,
     pub v: f32,
+}
+
+/// A ray prepared for the intersection with many boxes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BoxRay {
+    origin: Vec3,
+    /// 1 / direction on each axis, with the sign of the direction and finite.
+    inverse: Vec3,
+}
+
+/// Smallest component of a direction; its inverse is finite.
+const MIN_COMPONENT: f32 = 1.0e-30;
+
+impl BoxRay {
+    pub fn new(ray: &Ray) -> Self {
+        let inverse =
+            |d: f32| 1.0 / if d.abs() < MIN_COMPONENT { MIN_COMPONENT.copysign(d) } else { d };
+        Self {
+            origin: ray.origin,
+            inverse: Vec3::from_array(ray.direction.to_array().map(inverse)),
+        }
+    }
+
+    /// Returns where the ray enters and leaves a box, as distances from its origin [m]; `None` if it
+    /// misses the box.
+    ///
+    /// Rounding is monotone, so the range in a box lies within that in any box that contains it.
+    #[inline(always)]
+    pub fn range(&self, bounds: &Aabb) -> Option<[f32; 2]> {
+        let (a, b) =
+            ((bounds.low - self.origin) * self.inverse, (bounds.high - self.origin) * self.inverse);
+        let enter = max(max(min(a.x, b.x), min(a.y, b.y)), max(min(a.z, b.z), 0.0));
+        let leave = min(min(max(a.x, b.x), max(a.y, b.y)), max(a.z, b.z));
+        (enter <= leave).then_some([enter, leave])
+    }
 }
 
 impl Ray {
@@ -65,6 +103,18 @@ mod tests {
             let hit = ray.intersect_triangle(TRIANGLE).unwrap();
             assert_eq!((hit.distance, hit.u, hit.v), (2.0, 0.25, 0.5));
         }
+    }
+
+    #[test]
+    fn a_ray_enters_and_leaves_boxes_and_misses_those_beside_or_behind_it() {
+        let bounds = Aabb::from_points([Vec3::ZERO, Vec3::ONE]);
+        let range = |origin, direction| BoxRay::new(&Ray { origin, direction }).range(&bounds);
+        assert_eq!(range(Vec3::new(0.5, 0.5, 3.0), Vec3::NEG_Z), Some([2.0, 3.0]));
+        assert_eq!(range(Vec3::new(0.0, 0.5, 0.25), Vec3::Z), Some([0.0, 0.75]), "along a side");
+        assert_eq!(range(Vec3::new(0.5, 0.5, 3.0), Vec3::Z), None);
+        assert_eq!(range(Vec3::new(1.5, 0.5, 3.0), Vec3::NEG_Z), None);
+        let diagonal = range(Vec3::splat(-1.0), Vec3::ONE.normalize()).unwrap();
+        assert!((diagonal[0] - 3.0_f32.sqrt()).abs() < 1e-6, "{diagonal:?}");
     }
 
     #[test]

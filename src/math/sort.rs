@@ -1,4 +1,4 @@
-//! Unstable in-place sorting with small code.
+//! Unstable in-place sorting and selection with small code.
 //!
 //! Introsort: quicksort with random pivots (Hoare, "Quicksort", The Computer Journal 1962),
 //! insertion sort for short lists, heapsort once the recursion gets too deep (Williams, Floyd,
@@ -15,6 +15,26 @@ use core::cmp::Ordering;
 /// Sorts a list in ascending order, in place.
 pub(crate) fn sort<T: Ord>(list: &mut [T]) {
     sort_by(list, T::cmp);
+}
+
+/// Sorts a list whose order begins with that of a small number, `group`, in ascending order: into
+/// groups by counting (Seward, 1954; Knuth, TAOCP 5.2), then each group. Takes memory of its own.
+pub(crate) fn sort_groups<T: Ord + Copy>(list: &mut [T], group: fn(&T) -> u32) {
+    let Some(most) = list.iter().map(group).max() else { return };
+    let mut next = vec![0; most as usize + 2];
+    list.iter().for_each(|entry| next[group(entry) as usize + 1] += 1);
+    (1..next.len()).for_each(|at| next[at] += next[at - 1]);
+    let unsorted = list.to_vec();
+    for entry in &unsorted {
+        let at: &mut usize = &mut next[group(entry) as usize];
+        list[*at] = *entry;
+        *at += 1;
+    }
+    let mut start = 0;
+    for end in next {
+        sort(&mut list[start..end]);
+        start = end;
+    }
 }
 
 /// Sorts a list by an order in which only identical entries are equal, in place.
@@ -36,42 +56,77 @@ pub(crate) fn sort_by<T>(list: &mut [T], mut order: impl FnMut(&T, &T) -> Orderi
 /// Lists up to this length are sorted by insertion.
 const SHORT: usize = 12;
 
-/// Quicksort with at most `depth` levels. The pivot is the median of three entries at pseudo-random
-/// places, because lists that come from a mesh have repeating patterns.
+/// Quicksort with at most `depth` levels.
 #[inline(never)]
 fn quicksort<T>(mut list: &mut [T], is_less: &mut impl FnMut(&T, &T) -> bool, mut depth: u32) {
     let mut random = 1;
     while list.len() > SHORT && depth > 0 {
         depth -= 1;
-        let count = list.len();
-        let mut any = || {
-            random = u32::wrapping_add(u32::wrapping_mul(random, 1_664_525), 1_013_904_223);
-            ((u64::from(random) * count as u64) >> 32) as usize
-        };
-        let [mut a, mut b, c] = [any(), any(), any()];
-        if is_less(&list[b], &list[a]) {
-            (a, b) = (b, a);
-        }
-        if is_less(&list[c], &list[b]) {
-            b = if is_less(&list[c], &list[a]) { a } else { c };
-        }
-        list.swap(0, b);
-        let Some((pivot, others)) = list.split_first_mut() else {
-            return;
-        };
-        let mut less = 0;
-        for at in 0..others.len() {
-            let is_before = is_less(&others[at], pivot);
-            others.swap(less, at);
-            less += usize::from(is_before);
-        }
-        list.swap(0, less);
+        let less = partition(list, is_less, &mut random);
         let (before, after) = list.split_at_mut(less);
         let after = &mut after[1..];
         let (shorter, longer) =
             if before.len() < after.len() { (before, after) } else { (after, before) };
         quicksort(shorter, is_less, depth);
         list = longer;
+    }
+    insertion_or_heap_sort(list, is_less);
+}
+
+/// Moves the entries that are less than a pivot before it and the others behind it, and returns
+/// where the pivot is. The pivot is the median of three entries at pseudo-random places, because
+/// lists that come from a mesh have repeating patterns.
+#[inline(always)]
+fn partition<T>(
+    list: &mut [T],
+    is_less: &mut impl FnMut(&T, &T) -> bool,
+    random: &mut u32,
+) -> usize {
+    let count = list.len();
+    let mut any = || {
+        *random = u32::wrapping_add(u32::wrapping_mul(*random, 1_664_525), 1_013_904_223);
+        ((u64::from(*random) * count as u64) >> 32) as usize
+    };
+    let [mut a, mut b, c] = [any(), any(), any()];
+    if is_less(&list[b], &list[a]) {
+        (a, b) = (b, a);
+    }
+    if is_less(&list[c], &list[b]) {
+        b = if is_less(&list[c], &list[a]) { a } else { c };
+    }
+    list.swap(0, b);
+    let mut less = 0;
+    if let Some((pivot, others)) = list.split_first_mut() {
+        for at in 0..others.len() {
+            let is_before = is_less(&others[at], pivot);
+            others.swap(less, at);
+            less += usize::from(is_before);
+        }
+    }
+    list.swap(0, less);
+    less
+}
+
+/// Moves the entry that has place `middle` in ascending order there, the lesser ones before it and
+/// the greater ones behind it, by an order in which only identical entries are equal.
+///
+/// Quickselect (Hoare, "Find", CACM 1961), with a sort of what is left once it takes too many steps.
+pub(crate) fn select_by<T>(
+    mut list: &mut [T],
+    mut middle: usize,
+    mut order: impl FnMut(&T, &T) -> Ordering,
+) {
+    let is_less = &mut |a: &T, b: &T| order(a, b) == Ordering::Less;
+    let mut steps = 2 * (usize::BITS - list.len().leading_zeros());
+    let mut random = 1;
+    while list.len() > SHORT && steps > 0 {
+        steps -= 1;
+        let less = partition(list, is_less, &mut random);
+        match middle.cmp(&less) {
+            Ordering::Less => list = &mut list[..less],
+            Ordering::Equal => return,
+            Ordering::Greater => (list, middle) = (&mut list[less + 1..], middle - less - 1),
+        }
     }
     insertion_or_heap_sort(list, is_less);
 }
@@ -158,6 +213,38 @@ mod tests {
                     assert_eq!(list, right, "{length} numbers below {most}");
                     insertion_or_heap_sort(&mut simply, &mut |a, b| a < b);
                     assert_eq!(simply, right, "{length} numbers below {most}, without quicksort");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sorting_by_groups_gives_the_order_of_a_plain_sort() {
+        for groups in [1_u32, 7, 500] {
+            let number = |i: u32| (i.wrapping_mul(0x9e37_79b9) >> 9) % groups;
+            let any: Vec<(u32, u32)> = (0..900).map(|i| (number(i), i % 40)).collect();
+            let (mut right, mut list) = (any.clone(), any);
+            right.sort_unstable();
+            sort_groups(&mut list, |entry| entry.0);
+            assert_eq!(list, right);
+        }
+        sort_groups(&mut [], |entry: &u32| *entry);
+    }
+
+    #[test]
+    fn selection_divides_a_list_at_the_entry_of_a_place() {
+        for length in [1, 2, 13, 100, 4097] {
+            for most in [1, 3, u64::MAX] {
+                let number = |i: u64| (i ^ most).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 7;
+                let any: Vec<u64> = (0..length).map(|i| number(i) % most).collect();
+                let mut sorted = any.clone();
+                sorted.sort_unstable();
+                for middle in [0, length / 2, length - 1].map(|at| at as usize) {
+                    let mut list = any.clone();
+                    select_by(&mut list, middle, u64::cmp);
+                    assert_eq!(list[middle], sorted[middle]);
+                    assert!(list[..middle].iter().all(|before| *before <= list[middle]));
+                    assert!(list[middle..].iter().all(|after| *after >= list[middle]));
                 }
             }
         }

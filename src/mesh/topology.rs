@@ -19,7 +19,7 @@
 //! Invariant: an edge has at most two triangles, and the triangles of a vertex form one fan
 //! (2-manifold with borders).
 
-use crate::math::sort::sort;
+use crate::math::sort::sort_groups;
 use serde::{Deserialize, Serialize};
 
 /// No triangle, corner, vertex or link.
@@ -226,10 +226,10 @@ impl Mesh {
 
     /// Recomputes `across` and `corner_of` from `triangles`.
     pub fn rebuild_adjacency(&mut self) {
-        let mut edges: Vec<((u32, u32), Corner)> = (0..3 * self.triangles.len() as u32)
-            .map(|corner| (self.ends(corner), corner))
+        let mut edges: Vec<([u32; 2], Corner)> = (0..3 * self.triangles.len() as u32)
+            .map(|corner| (self.ends(corner).into(), corner))
             .collect();
-        sort(&mut edges);
+        sort_groups(&mut edges, |([low, _], _)| *low);
         self.across.fill([NONE; 3]);
         for pair in edges.windows(2) {
             if let [(ends, a), (same, b)] = pair

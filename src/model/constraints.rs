@@ -15,7 +15,7 @@
 //! Invariant: links of one batch share no particle, so the order inside a batch does not change the
 //! result.
 
-use crate::math::sort::sort;
+use crate::math::sort::sort_groups;
 use crate::mesh::{Corner, Mesh, NONE, next_corner, prev_corner, triangle_of};
 use crate::model::chains::Chains;
 use crate::model::coloring;
@@ -238,7 +238,7 @@ impl Constraints {
         // Links of one colour keep the order in which they were created.
         let mut order: Vec<[u32; 2]> =
             drafts.iter().zip(0..).map(|(draft, at)| [draft.color, at]).collect();
-        sort(&mut order);
+        sort_groups(&mut order, |[color, _]| *color);
         let mut links = Links::default();
         links.reserve(drafts.len());
         let mut batches: Vec<LinkBatch> = Vec::new();
@@ -405,37 +405,38 @@ fn edge_between_triangles(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
 /// Builds the CSR lists `first_of_site` and `links_by_site`: for each original vertex, the links
 /// that depend on it.
 fn index_links_by_site(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
-    let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(4 * links.len());
+    let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(4 * links.len());
     for (at, spec) in links.spec.iter().enumerate() {
-        pairs.extend(spec.dependent_corners().map(|corner| (mesh.vertex(corner), at as u32)));
+        pairs.extend(spec.dependent_corners().map(|corner| [mesh.vertex(corner), at as u32]));
     }
-    sort(&mut pairs);
+    sort_groups(&mut pairs, |[vertex, _]| *vertex);
     pairs.dedup();
     let mut first = vec![0u32; mesh.original_count as usize + 1];
-    for (vertex, _) in &pairs {
+    for [vertex, _] in &pairs {
         first[*vertex as usize + 1] += 1;
     }
     for vertex in 1..first.len() {
         first[vertex] += first[vertex - 1];
     }
-    (first, pairs.into_iter().map(|(_, link)| link).collect())
+    (first, pairs.into_iter().map(|[_, link]| link).collect())
 }
 
 /// Lookup of edges by their two vertices.
 struct EdgeIndex {
-    sorted: Vec<((u32, u32), Corner)>,
+    sorted: Vec<([u32; 2], Corner)>,
 }
 
 impl EdgeIndex {
     fn new(mesh: &Mesh) -> Self {
-        let mut sorted: Vec<_> = mesh.edges().map(|edge| (mesh.ends(edge), edge)).collect();
-        sort(&mut sorted);
+        let ends = |edge: Corner| <[u32; 2]>::from(mesh.ends(edge));
+        let mut sorted: Vec<_> = mesh.edges().map(|edge| (ends(edge), edge)).collect();
+        sort_groups(&mut sorted, |([low, _], _)| *low);
         Self { sorted }
     }
 
     /// The corner where the edge starts in its first triangle.
     fn edge_between(&self, a: u32, b: u32) -> Corner {
-        let ends = (a.min(b), a.max(b));
+        let ends = [a.min(b), a.max(b)];
         let found = self.sorted.binary_search_by_key(&ends, |(ends, _)| *ends);
         debug_assert!(found.is_ok(), "{ends:?} is an edge");
         self.sorted[found.unwrap_or(0)].1

@@ -11,7 +11,7 @@
 //! Invariant: hinges are sorted by colour (neighbours in the list share no particle, for
 //! pipelining), and each belongs to one bend link.
 
-use crate::math::sort::sort_by;
+use crate::math::sort::sort_groups;
 use crate::mesh::{Corner, Mesh, next_corner, triangle_of};
 use crate::model::bend_elements::BendElements;
 use crate::model::hinge::{CurvatureResponse, Hinge};
@@ -77,13 +77,14 @@ impl Hinges {
         }
         let scale = if modelled > 0.0 { (exact / modelled) as f32 } else { 1.0 };
         let color = colors(&candidates, mesh.vertex_count());
-        let mut order: Vec<usize> = (0..candidates.len()).collect();
-        sort_by(&mut order, |p, q| (color[*p], p).cmp(&(color[*q], q)));
+        let mut order: Vec<[u32; 2]> =
+            color.iter().zip(0..).map(|(color, at)| [*color, at]).collect();
+        sort_groups(&mut order, |[color, _]| *color);
         let mut hinge_of = vec![u32::MAX; links.len() - first];
         let (mut all, mut of) = (Vec::new(), Vec::new());
         let (mut triangles, mut responses) = (Vec::new(), Vec::new());
-        for at in order {
-            let (link, hinge, between, response) = candidates[at];
+        for [_, at] in order {
+            let (link, hinge, between, response) = candidates[at as usize];
             hinge_of[link as usize - first] = all.len() as u32;
             all.push(Hinge { shape: hinge.shape * scale, ..hinge });
             of.push(link);

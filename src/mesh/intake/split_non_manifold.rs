@@ -14,7 +14,7 @@
 //!
 //! Invariant of the result: at most two triangles per edge, one fan per particle.
 
-use crate::math::sort::{sort, sort_by};
+use crate::math::sort::{sort_by, sort_groups};
 use crate::mesh::{Corner, next_corner, prev_corner, triangle_of};
 use glam::{DVec3, Vec3};
 
@@ -70,7 +70,7 @@ impl EdgeSides {
                 ([a.min(b), a.max(b)], edge)
             })
             .collect();
-        sort(&mut sorted);
+        sort_groups(&mut sorted, |([low, _], _)| *low);
         Self { sorted }
     }
 

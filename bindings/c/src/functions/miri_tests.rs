@@ -11,6 +11,7 @@ use super::parameters::*;
 use super::particles::*;
 use super::picking::*;
 use super::pins::*;
+use super::queries::*;
 use super::save::*;
 use super::time::*;
 use super::topology::*;
@@ -157,6 +158,38 @@ fn a_grid_is_created_stepped_torn_read_saved_and_destroyed() {
 }
 
 #[test]
+fn poses_and_queries_read_and_write_unaligned_lists_up_to_their_last_byte() {
+    let cloth = grid();
+    // SAFETY: every pointer in this test is valid for its call, with the size that is passed along.
+    unsafe {
+        let positions = unaligned_bytes(&[0.1, -0.1, 0.0, 9.0, 0.2, -0.1, 0.01]);
+        let unaligned: *const f32 = positions.as_ptr().add(1).cast();
+        assert_ok(muslin_cloth_set_positions(cloth, 5, 2, unaligned, 16));
+        assert_ok(muslin_cloth_set_velocities(cloth, 5, 2, unaligned, 16));
+        let mut room = unaligned_bytes(&[9.0; 7]);
+        let out: *mut f32 = room.as_mut_ptr().add(1).cast();
+        assert_ok(muslin_cloth_get_velocities(cloth, 5, 2, out, 16));
+        assert_eq!(room, positions);
+        assert_ok(muslin_cloth_get_rest_positions(cloth, 5, 2, out, 16));
+        let count: u32 = written(|out| muslin_cloth_get_pins(cloth, null_mut(), 0, out));
+        let mut pins = vec![0; count as usize];
+        let same: u32 = written(|out| muslin_cloth_get_pins(cloth, pins.as_mut_ptr(), count, out));
+        assert!(count == same && count >= 2);
+        assert_ok(muslin_cloth_get_pin_targets(cloth, pins.as_ptr(), out, 16, 2));
+        let asleep: u32 = written(|out| muslin_cloth_is_asleep(cloth, out));
+        let blend: f32 = written(|out| muslin_cloth_get_blend(cloth, out));
+        assert_eq!((asleep, blend), (0, 0.0));
+        let mut wind: MuslinWind =
+            initialized(|wind| muslin_wind_init_sized(wind, size::<MuslinWind>()));
+        assert_ok(muslin_cloth_get_wind(cloth, &raw mut wind));
+        let ticks: u64 = written(|out| muslin_cloth_get_time(cloth, null_mut(), out));
+        let total: f32 = written(|out| muslin_cloth_get_mass(cloth, out, null_mut(), null_mut()));
+        assert!(ticks == 0 && total > 0.0);
+    }
+    assert_ok(muslin_cloth_destroy(cloth));
+}
+
+#[test]
 fn pins_attachments_and_grabs_read_unaligned_lists() {
     let cloth = grid();
     // SAFETY: every pointer in this test is valid for its call, with the size that is passed along.
@@ -195,6 +228,9 @@ fn pins_attachments_and_grabs_read_unaligned_lists() {
             initialized(|desc| muslin_collider_desc_init_sized(desc, size::<MuslinColliderDesc>()));
         desc.position = at(0.15, -0.5, 0.0);
         let collider: MuslinCollider = written(|out| muslin_cloth_add_collider(cloth, &desc, out));
+        let position: MuslinVec3 =
+            written(|out| muslin_cloth_get_collider_pose(cloth, collider, out, null_mut()));
+        assert_eq!(position, desc.position);
         let wind: MuslinWind =
             initialized(|wind| muslin_wind_init_sized(wind, size::<MuslinWind>()));
         assert_ok(muslin_cloth_set_wind(cloth, &wind));
