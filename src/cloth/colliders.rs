@@ -67,6 +67,25 @@ impl Cloth {
         Ok(())
     }
 
+    /// Gives a mesh collider new vertices, of the same number and with the same triangles: the body of
+    /// a character in its next pose. Its surface reaches them evenly over the ticks of the next
+    /// [`Cloth::advance`], or in the next tick of [`Cloth::step`], and is swept on its way: it carries
+    /// cloth along, by friction with the speed of each place. `positions` are in the local frame of
+    /// the collider [m], all of them; [`Cloth::move_collider`] moves that frame as before.
+    ///
+    /// The first call prepares the mesh for that, which takes as long as adding it. Substeps are added
+    /// where cloth and surface move fast relative to each other.
+    ///
+    /// # Errors
+    /// [`Error::BadHandle`](crate::Error::BadHandle) if the collider was removed;
+    /// [`Error::BadValue`](crate::Error::BadValue) if it is no mesh or the number of vertices differs;
+    /// [`Error::BadEntry`](crate::Error::BadEntry) if a vertex is not between −1e6 and 1e6. The cloth
+    /// is unchanged.
+    pub fn update_collider(&mut self, collider: Collider, positions: &[Vec3]) -> Result<()> {
+        let body = self.world.colliders.get_mut(collider.0, "collider")?;
+        with_float_env(|| body.update(positions))
+    }
+
     /// Removes a collider. Its handle becomes stale.
     ///
     /// # Errors

@@ -73,6 +73,9 @@ impl Cloth {
         }
         for body in world.colliders.iter() {
             body.desc.hash(&mut hasher);
+            if let Some(deformation) = body.deformation() {
+                deformation.hash(&mut hasher);
+            }
             for pose in [&body.last, &body.next] {
                 hasher.write_f32s(&pose.position.to_array());
                 hasher.write_f32s(&pose.rotation.to_array());

@@ -134,6 +134,12 @@ impl EdgeFeature {
         Some(Self { ends, inward, normals, outward, sides, bend })
     }
 
+    /// Makes an edge of two faces in one plane, which counts as smooth.
+    pub(super) fn flat(ends: [Vec3; 2], sides: FeatureSides) -> Self {
+        let (inward, normals) = ([Vec3::ZERO; 2], [Vec3::ZERO; 2]);
+        Self { ends, inward, normals, outward: Vec3::Y, sides, bend: SurfaceBend::default() }
+    }
+
     /// Returns whether a point lies in front of at least one of the two faces.
     pub fn is_outside(&self, p: Vec3) -> bool {
         self.normals.iter().any(|normal| (p - self.ends[0]).dot(*normal) > 0.0)
@@ -154,8 +160,16 @@ pub(crate) struct VertexFeature {
     /// The largest bend of its edges.
     pub bend: SurfaceBend,
     /// Its range in `Features::incident_edges`.
-    first_edge: u32,
-    end_edge: u32,
+    pub(super) first_edge: u32,
+    pub(super) end_edge: u32,
+}
+
+impl VertexFeature {
+    /// Makes a vertex in a flat place, which counts as smooth, with a range of incident edges.
+    pub(super) fn flat(position: Vec3, [first_edge, end_edge]: [u32; 2]) -> Self {
+        let (outward, sides, bend) = (Vec3::Y, FeatureSides::Solid, SurfaceBend::default());
+        Self { position, outward, sides, bend, first_edge, end_edge }
+    }
 }
 
 /// One feature; a vertex with its index in `Features::vertices`.
@@ -171,16 +185,27 @@ pub(crate) struct Features {
     pub edges: Vec<EdgeFeature>,
     pub vertices: Vec<VertexFeature>,
     /// The edges at each vertex, vertex by vertex.
-    incident_edges: Vec<IncidentEdge>,
+    pub(super) incident_edges: Vec<IncidentEdge>,
+    /// The motion of each feature, by its id; empty if they do not move.
+    pub(super) motions: Vec<FeatureMotion>,
+}
+
+/// The motion of a feature of a moving mesh.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct FeatureMotion {
+    /// How far it moved in the substep [m]; for an edge, the mean of its ends.
+    pub carry: Vec3,
+    /// How far it may be from its pose in a search for pairs [m].
+    pub reach: f32,
 }
 
 /// An edge as seen from one of its ends.
 #[derive(Clone, Copy, Debug)]
-struct IncidentEdge {
+pub(super) struct IncidentEdge {
     /// Along the edge, away from the vertex, of length one.
-    direction: Vec3,
+    pub direction: Vec3,
     /// The normals of its faces.
-    normals: [Vec3; 2],
+    pub normals: [Vec3; 2],
 }
 
 impl Features {
@@ -247,12 +272,28 @@ impl Features {
         }
     }
 
-    /// Returns the bounds of a feature [m].
+    /// Returns the bounds of a feature in a search for pairs [m].
     pub fn bounds(&self, id: u32) -> Aabb {
-        match self.get(id) {
+        let bounds = match self.get(id) {
             Feature::Edge(edge) => Aabb::from_points(edge.ends),
             Feature::Vertex(_, vertex) => Aabb { low: vertex.position, high: vertex.position },
-        }
+        };
+        if self.motions.is_empty() { bounds } else { bounds.expanded(self.reach(id)) }
+    }
+
+    /// Returns how far a feature may be from its pose in a search for pairs [m].
+    pub fn reach(&self, id: u32) -> f32 {
+        self.motions.get(id as usize).map_or(0.0, |motion| motion.reach)
+    }
+
+    /// Returns how far an edge moved in the substep [m].
+    pub fn edge_carry(&self, edge: u32) -> Vec3 {
+        self.motions.get(edge as usize).map_or(Vec3::ZERO, |motion| motion.carry)
+    }
+
+    /// Returns how far a vertex moved in the substep [m].
+    pub fn vertex_carry(&self, vertex: u32) -> Vec3 {
+        self.edge_carry(vertex + self.edges.len() as u32)
     }
 
     /// Returns how much the surface bends at a feature.
@@ -289,7 +330,7 @@ impl Features {
 pub(crate) struct ShapeFeatures {
     pub features: Features,
     /// BVH over feature ids; `None` if the shape is one plane.
-    tree: Option<Bvh>,
+    pub(super) tree: Option<Bvh>,
     pub bends: BendHistogram,
 }
 
@@ -337,6 +378,13 @@ impl ShapeFeatures {
         Self { features, tree, bends }
     }
 
+    /// Recomputes the tree from boxes of the features.
+    pub(super) fn refit(&mut self, bounds: &dyn Fn(u32) -> Aabb) {
+        if let Some(tree) = &mut self.tree {
+            tree.refit(bounds);
+        }
+    }
+
     /// Returns the ids of the features that may overlap `bounds`, in the order of the BVH.
     pub fn overlapping(&self, bounds: Aabb) -> impl Iterator<Item = u32> + '_ {
         self.tree.iter().flat_map(move |tree| tree.overlapping(bounds))
@@ -344,7 +392,7 @@ impl ShapeFeatures {
 }
 
 /// Returns, for each point, the first point in the same place.
-fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
+pub(super) fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
     // Adding zero turns minus zero into zero.
     let bits = |i: u32| (positions[i as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();

@@ -15,6 +15,8 @@ pub(crate) mod convex_hull;
 pub(crate) mod features;
 pub(crate) mod hash_grid;
 pub(crate) mod heightfield;
+mod moving_features;
+pub(crate) mod moving_surface;
 pub(crate) mod polyhedron;
 pub(crate) mod primitives;
 pub(crate) mod ray;

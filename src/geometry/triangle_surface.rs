@@ -5,9 +5,14 @@
 //! "Real-Time Collision Detection", 2005, sec. 5.1.5). A point stays on the side from which it
 //! came.
 //!
-//! Reads positions and triangles once, at construction. Writes triangle indices to the list of the
-//! caller.
-//! Invariant: all triangles have an area, so all normals exist.
+//! The surface of a moving mesh (`geometry::moving_surface`) also knows where its triangles were at
+//! the start of the substep. Then the path of a point is measured relative to each triangle: its
+//! start is carried along, at the same height and beside the same place of the triangle.
+//!
+//! Reads positions and triangles at construction, and those of a moving mesh when it is posed.
+//! Writes triangle indices to the list of the caller.
+//! Invariant: all triangles have an area when made, so all normals exist; one that loses its area
+//! has a normal of zero, and stops nothing.
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
@@ -15,11 +20,28 @@ use crate::geometry::closest_points::{interpolate, triangle_to_origin};
 use crate::math::TINY;
 use glam::Vec3;
 
-/// Static triangles with a BVH over them.
+/// Triangles with a BVH over them.
 #[derive(Clone, Debug)]
 pub(crate) struct TriangleSurface {
     triangles: Vec<SurfaceTriangle>,
+    /// The triangles at the start of the substep; empty if they do not move.
+    before: Vec<SurfaceTriangle>,
+    /// How far each triangle may be from its pose in a search for pairs [m]; empty likewise.
+    reach: Vec<f32>,
     tree: Bvh,
+}
+
+/// A place of a surface that a point touches or passes through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SurfacePoint {
+    /// Where a path crosses the surface [m].
+    pub at: Vec3,
+    /// Distance of the point from the surface [m]; 0 where a path crosses it.
+    pub distance: f32,
+    /// The normal on the side of the point, of length one.
+    pub outward: Vec3,
+    /// How far the surface moved there in the substep, in its frame [m].
+    pub carry: Vec3,
 }
 
 /// A triangle with its normal.
@@ -49,13 +71,52 @@ impl TriangleSurface {
     pub fn new(positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<Self> {
         let mut all = Vec::new();
         for triangle in triangles {
-            let corners = triangle.map(|i| positions[i as usize]);
-            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-            all.push(SurfaceTriangle { corners, normal: normal * (1.0 / normal.length()) });
+            all.push(SurfaceTriangle::new(triangle.map(|i| positions[i as usize])));
         }
         let bounds: Vec<Aabb> =
             all.iter().map(|triangle| Aabb::from_points(triangle.corners)).collect();
-        (!all.is_empty()).then(|| Self { tree: Bvh::build(&bounds), triangles: all })
+        let (before, reach) = (Vec::new(), Vec::new());
+        (!all.is_empty()).then(|| Self { tree: Bvh::build(&bounds), triangles: all, before, reach })
+    }
+
+    /// Prepares for triangles that move.
+    pub fn make_movable(&mut self) {
+        self.before.clone_from(&self.triangles);
+        self.reach = vec![0.0; self.triangles.len()];
+    }
+
+    /// Sets the corners of a triangle now and at the start of the substep [m], and how far it may be
+    /// from there in a search for pairs [m].
+    pub fn pose(&mut self, triangle: u32, now: [Vec3; 3], before: [Vec3; 3], reach: f32) {
+        let at = triangle as usize;
+        self.triangles[at] = SurfaceTriangle::new(now);
+        self.before[at] =
+            if before == now { self.triangles[at].clone() } else { SurfaceTriangle::new(before) };
+        self.reach[at] = reach;
+    }
+
+    /// Recomputes the tree from boxes of the triangles.
+    pub fn refit(&mut self, bounds: &dyn Fn(u32) -> Aabb) {
+        self.tree.refit(bounds);
+    }
+
+    /// Returns the triangles whose boxes may overlap `bounds`.
+    pub fn overlapping(&self, bounds: Aabb) -> impl Iterator<Item = u32> + '_ {
+        self.tree.overlapping(bounds)
+    }
+
+    /// Returns how far a triangle moved near a point that was at `from` at the start of the substep
+    /// [m]: the displacement of the closest place of the triangle, and along the normal what keeps
+    /// the height of the point.
+    #[inline(never)]
+    fn carry(&self, triangle: u32, from: Vec3) -> Vec3 {
+        let Some(before) = self.before.get(triangle as usize) else { return Vec3::ZERO };
+        let now = &self.triangles[triangle as usize];
+        let weights = triangle_to_origin(before.corners.map(|corner| corner - from));
+        let moved = [0, 1, 2].map(|k| now.corners[k] - before.corners[k]);
+        let carry = interpolate(moved, weights);
+        let height = (from - before.corners[0]).dot(before.normal);
+        carry + now.normal * (height - (from + carry - now.corners[0]).dot(now.normal))
     }
 
     pub fn bounds(&self) -> Aabb {
@@ -72,6 +133,7 @@ impl TriangleSurface {
         let bounds = Aabb { low: point - Vec3::splat(radius), high: point + Vec3::splat(radius) };
         let is_near = |triangle: &u32| {
             let SurfaceTriangle { corners, normal } = &self.triangles[*triangle as usize];
+            let radius = radius + self.reach.get(*triangle as usize).unwrap_or(&0.0);
             let height = (point - corners[0]).dot(*normal);
             // Negated, so that NaN counts as near.
             let is_far = height.abs() > radius || {
@@ -84,6 +146,14 @@ impl TriangleSurface {
     }
 }
 
+impl SurfaceTriangle {
+    fn new(corners: [Vec3; 3]) -> Self {
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let length = normal.length();
+        Self { corners, normal: normal * if length > 0.0 { 1.0 / length } else { 0.0 } }
+    }
+}
+
 /// A triangle surface restricted to the candidate triangles of one particle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CandidateTriangles<'a> {
@@ -92,22 +162,30 @@ pub(crate) struct CandidateTriangles<'a> {
 }
 
 impl CandidateTriangles<'_> {
-    fn triangles(&self) -> impl Iterator<Item = &SurfaceTriangle> {
-        self.triangles.iter().map(|triangle| &self.surface.triangles[*triangle as usize])
+    /// Returns the candidates with their numbers, now and at the start of the substep.
+    fn triangles(&self) -> impl Iterator<Item = (u32, [&SurfaceTriangle; 2])> {
+        let TriangleSurface { triangles, before, .. } = self.surface;
+        self.triangles.iter().map(|triangle| {
+            let now = &triangles[*triangle as usize];
+            (*triangle, [now, before.get(*triangle as usize).unwrap_or(now)])
+        })
     }
 
-    /// Returns the first point where the segment between two points crosses the surface, and the
-    /// normal there on the side of `from`; `None` if it crosses no candidate.
-    pub fn first_crossing(&self, from: Vec3, to: Vec3) -> Option<(Vec3, Vec3)> {
-        let path = to - from;
-        let mut first: Option<(f32, Vec3)> = None;
-        for triangle in self.triangles() {
-            let fall = path.dot(triangle.normal);
-            let above = (from - triangle.corners[0]).dot(triangle.normal);
+    /// Returns the first point where the path of a point between two positions crosses the surface;
+    /// `None` if it crosses no candidate. Its normal is that on the side of `from`.
+    pub fn first_crossing(&self, from: Vec3, to: Vec3) -> Option<SurfacePoint> {
+        let is_moving = !self.surface.before.is_empty();
+        let mut first: Option<(f32, SurfacePoint)> = None;
+        for (number, [triangle, before]) in self.triangles() {
+            let above = (from - before.corners[0]).dot(before.normal);
             let still_above = (to - triangle.corners[0]).dot(triangle.normal);
             if above * still_above > 0.0 {
                 continue;
             }
+            let carry = if is_moving { self.surface.carry(number, from) } else { Vec3::ZERO };
+            let from = if is_moving { from + carry } else { from };
+            let path = to - from;
+            let fall = path.dot(triangle.normal);
             // The path must approach the plane from the side where it starts.
             if fall * above >= 0.0 {
                 continue;
@@ -122,18 +200,19 @@ impl CandidateTriangles<'_> {
             let size = (at[1] - at[0]).length_squared() + (at[2] - at[0]).length_squared();
             if miss <= HIT_TOLERANCE * HIT_TOLERANCE * size {
                 let outward = if above > 0.0 { triangle.normal } else { -triangle.normal };
-                first = Some((fraction, outward));
+                let at = from + path * fraction;
+                first = Some((fraction, SurfacePoint { at, distance: 0.0, outward, carry }));
             }
         }
-        first.map(|(fraction, outward)| (from + path * fraction, outward))
+        first.map(|(_, point)| point)
     }
 
-    /// Returns the distance of a point from the surface [m] and the direction from the closest
-    /// point of the surface to it; `None` if the distance is `max_distance` or more. A point on the
-    /// surface gets the normal on the side of `from`.
-    pub fn closest(&self, point: Vec3, from: Vec3, max_distance: f32) -> Option<(f32, Vec3)> {
+    /// Returns the closest place of the surface to a point and the direction from there to it;
+    /// `None` if it is `max_distance` [m] away or more. A point on the surface gets the normal on
+    /// the side of `from`, where it was at the start of the substep.
+    pub fn closest(&self, point: Vec3, from: Vec3, max_distance: f32) -> Option<SurfacePoint> {
         let mut least = (max_distance * max_distance, None);
-        for triangle in self.triangles() {
+        for (number, [triangle, before]) in self.triangles() {
             // No triangle is nearer than its plane.
             let height = (point - triangle.corners[0]).dot(triangle.normal);
             if height * height >= least.0 {
@@ -148,21 +227,30 @@ impl CandidateTriangles<'_> {
                 let side = if height.abs() > TINY {
                     height
                 } else {
-                    (from - triangle.corners[0]).dot(triangle.normal)
+                    (from - before.corners[0]).dot(before.normal)
                 };
                 let outward = if side > 0.0 { triangle.normal } else { -triangle.normal };
                 // Above the interior the normal is exact, but the direction of a short vector is
                 // not.
                 let is_beside = weights.iter().any(|w| *w <= 0.0) && length > TINY;
-                let found = if is_beside {
+                let (distance, outward) = if is_beside {
                     (length, at * (-1.0 / length))
                 } else {
                     (height.abs(), outward)
                 };
-                least = (distance2, Some(found));
+                least = (distance2, Some((number, weights, distance, outward)));
             }
         }
-        least.1
+        least.1.map(|(number, weights, distance, outward)| {
+            let carry = match self.surface.before.get(number as usize) {
+                Some(before) => {
+                    let now = &self.surface.triangles[number as usize];
+                    interpolate([0, 1, 2].map(|k| now.corners[k] - before.corners[k]), weights)
+                }
+                None => Vec3::ZERO,
+            };
+            SurfacePoint { at: point - outward * distance, distance, outward, carry }
+        })
     }
 }
 
@@ -187,6 +275,7 @@ mod tests {
     fn first_crossing(surface: &TriangleSurface, from: Vec3, to: Vec3) -> Option<(Vec3, Vec3)> {
         CandidateTriangles { surface, triangles: &candidates(surface, from, to) }
             .first_crossing(from, to)
+            .map(|point| (point.at, point.outward))
     }
 
     #[test]
@@ -228,7 +317,9 @@ mod tests {
         let closest = |x, y| {
             let p = Vec3::new(x, y, 0.5);
             let triangles = candidates(&surface, p, p);
-            CandidateTriangles { surface: &surface, triangles: &triangles }.closest(p, Vec3::Y, 0.2)
+            CandidateTriangles { surface: &surface, triangles: &triangles }
+                .closest(p, Vec3::Y, 0.2)
+                .map(|point| (point.distance, point.outward))
         };
         let (distance, out) = closest(0.3, 0.1).unwrap();
         assert!((distance - 0.1).abs() < 1.0e-6 && (out - Vec3::Y).length() < 1.0e-6);

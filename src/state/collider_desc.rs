@@ -150,6 +150,20 @@ const MAX_COORDINATE: f32 = 1.0e6;
 /// made relative to its center [m].
 const MAX_SHAPE_DISTANCE: f32 = 16.0;
 
+fn is_near(x: &Vec3) -> bool {
+    x.to_array().iter().all(|c| c.abs() < MAX_COORDINATE)
+}
+
+/// Returns [`Error::BadEntry`] for the first point of the list `field` that is too far from zero or
+/// not finite.
+pub(crate) fn check_coordinates(list: &[Vec3], field: &'static str) -> Result<()> {
+    let must = "be between -1e6 and 1e6";
+    match list.iter().position(|x| !is_near(x)) {
+        None => Ok(()),
+        Some(index) => Err(Error::BadEntry { field, index: index as u32, must }),
+    }
+}
+
 fn is_size(v: f32) -> bool {
     v > 0.0 && v < MAX_COORDINATE
 }
@@ -227,9 +241,18 @@ impl ColliderDesc {
     }
 
     fn check_positions(&self) -> Result<()> {
-        let near = |x: &Vec3| x.to_array().iter().all(|c| c.abs() < MAX_COORDINATE);
-        let all_near = self.positions.iter().all(near);
+        let all_near = self.positions.iter().all(is_near);
         check(all_near, "collider.positions", "be between -1e6 and 1e6")
+    }
+
+    /// The vertices of a mesh relative to `shape_center`, and those of its triangles that have an
+    /// area.
+    pub(crate) fn mesh_surface(&self) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+        let center = self.shape_center();
+        let positions: Vec<Vec3> = self.positions.iter().map(|x| *x - center).collect();
+        let (triangles, _) = self.indices.as_chunks::<3>();
+        let triangles = triangle_surface::non_degenerate(&positions, triangles);
+        (positions, triangles)
     }
 
     /// The point that the coordinates of the collision shape are relative to, in the local frame
@@ -273,8 +296,7 @@ impl ColliderDesc {
                 CollisionShape::ConvexHull(body, ShapeFeatures::build(&positions, &triangles, true))
             }
             Shape::Mesh => {
-                let (triangles, _) = self.indices.as_chunks::<3>();
-                let triangles = triangle_surface::non_degenerate(&positions, triangles);
+                let (positions, triangles) = self.mesh_surface();
                 let surface = TriangleSurface::new(&positions, &triangles)
                     .ok_or(bad("collider.indices", "hold a triangle with an area"))?;
                 CollisionShape::TriangleSurface(

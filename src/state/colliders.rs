@@ -7,7 +7,8 @@ use crate::arena::Arena;
 use crate::error::{Result, check, check_finite};
 use crate::geometry::collision_shape::CollisionShape;
 use crate::math::{max, saturate};
-use crate::state::collider_desc::{ColliderDesc, Shape};
+use crate::state::collider_desc::{ColliderDesc, Shape, check_coordinates};
+use crate::state::deformation::Deformation;
 use crate::state::origin::{is_valid_origin, whole_metres};
 use crate::state::pose::{COLLIDER_FIELDS, Pose, check_pose};
 use glam::{Quat, Vec3};
@@ -85,6 +86,8 @@ pub(crate) struct ColliderBody {
     /// Impulse that the velocities of the cloth have not taken up yet: the second-order scheme
     /// (BDF2) spreads it over the next substeps.
     pub pending: Impulse,
+    /// The deformation of a mesh, once the host has given new vertices.
+    deformation: Option<Box<Deformation>>,
     /// A point in the local frame [m]: that of `ColliderDesc::shape_center`, or a point of a plane
     /// near the origin of the cloth.
     center: Vec3,
@@ -96,7 +99,8 @@ pub(crate) struct ColliderBody {
     /// between `restore` and the next tick.
     #[serde(skip)]
     arrived: Option<Pose>,
-    /// Shape built from the descriptor; `None` between reading a save and `restore`.
+    /// Shape built from the descriptor; `None` between reading a save and `restore`, and if the
+    /// collider deforms.
     #[serde(skip)]
     collision_shape: Option<Arc<CollisionShape>>,
 }
@@ -112,6 +116,7 @@ impl ColliderBody {
             next: pose,
             impulse: Impulse::default(),
             pending: Impulse::default(),
+            deformation: None,
             center,
             final_pose: pose,
             arrived: Some(pose),
@@ -136,13 +141,61 @@ impl ColliderBody {
         check_pose(self.last.position, self.last.rotation, COLLIDER_FIELDS)?;
         check_pose(self.next.position, self.next.rotation, COLLIDER_FIELDS)?;
         self.final_pose = self.next;
-        self.collision_shape = Some(Arc::new(self.desc.collision_shape()?));
+        match &mut self.deformation {
+            Some(deformation) => {
+                let (positions, triangles) = self.desc.mesh_surface();
+                check(self.desc.shape == Shape::Mesh, "collider.deformation", "be that of a mesh")?;
+                deformation.restore(&positions, triangles)?;
+            }
+            None => self.collision_shape = Some(Arc::new(self.desc.collision_shape()?)),
+        }
         Ok(())
     }
 
     /// The shape; `None` before `restore`.
     pub fn collision_shape(&self) -> Option<&CollisionShape> {
-        self.collision_shape.as_deref()
+        match &self.deformation {
+            Some(deformation) => deformation.shape(),
+            None => self.collision_shape.as_deref(),
+        }
+    }
+
+    /// The deformation; `None` if the collider is rigid.
+    pub fn deformation(&self) -> Option<&Deformation> {
+        self.deformation.as_deref()
+    }
+
+    /// The deformation; `None` if the collider is rigid.
+    pub fn deformation_mut(&mut self) -> Option<&mut Deformation> {
+        self.deformation.as_deref_mut()
+    }
+
+    /// Whether the collider moves or deforms in the next tick.
+    pub fn is_moving(&self) -> bool {
+        self.last != self.next || self.deformation.as_ref().is_some_and(|one| one.is_moving())
+    }
+
+    /// Sets the vertices of a mesh that the next tick, or the ticks of the next `advance`, reach, in
+    /// the local frame [m].
+    ///
+    /// # Errors
+    /// [`Error::BadValue`](crate::Error::BadValue) if this is no mesh or the number of vertices
+    /// differs; [`Error::BadEntry`](crate::Error::BadEntry) for a vertex that is not near enough. The
+    /// collider is unchanged then.
+    pub fn update(&mut self, positions: &[Vec3]) -> Result<()> {
+        check(self.desc.shape == Shape::Mesh, "collider", "be a mesh")?;
+        let count = self.desc.positions.len();
+        check(positions.len() == count, "positions", "have all vertices of the collider")?;
+        check_coordinates(positions, "positions")?;
+        if self.deformation.is_none() {
+            let (base, triangles) = self.desc.mesh_surface();
+            self.deformation = Deformation::new(&base, triangles).map(Box::new);
+            self.collision_shape = None;
+        }
+        if let Some(deformation) = &mut self.deformation {
+            deformation.set_target(positions.iter().map(|x| *x - self.center));
+        }
+        Ok(())
     }
 
     /// Upper bound of how far the rotation of a tick takes any point of the collider from the
@@ -220,6 +273,9 @@ impl ColliderBody {
     /// Completes the motion of a tick: the collider has arrived at its next pose.
     pub fn finish_tick(&mut self) {
         self.last = self.next;
+        if let Some(deformation) = &mut self.deformation {
+            deformation.finish_tick();
+        }
         self.desc.rotation = self.next.rotation;
         self.arrived = Some(Pose { position: self.desc.position, ..self.last });
     }

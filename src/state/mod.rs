@@ -4,6 +4,7 @@ pub(crate) mod anchors;
 pub(crate) mod attachments;
 pub(crate) mod collider_desc;
 pub(crate) mod colliders;
+pub(crate) mod deformation;
 pub(crate) mod events;
 pub(crate) mod grabs;
 pub(crate) mod mass_scales;

@@ -35,6 +35,8 @@ pub(super) struct BodyMotion {
     extent: Extent,
     /// Largest distance that a point of the body moves [m].
     pub longest: f32,
+    /// Whether its surface moves in its frame.
+    deforms: bool,
     /// Displacement relative to the body that one substep resolves [m].
     pub step: f32,
 }
@@ -74,7 +76,10 @@ impl BodyMotion {
         };
         // No chord is longer than the diameter of its circle.
         let longest = translation.length() + if rotates { 2.0 * lever } else { 0.0 };
-        Self { start, translation, turn, margin, extent, longest, step: min(step, radius) }
+        let deformation = body.deformation().filter(|deformation| deformation.is_moving());
+        let longest = longest + deformation.map_or(0.0, |deformation| deformation.longest());
+        let (deforms, step) = (deformation.is_some(), min(step, radius));
+        Self { start, translation, turn, margin, extent, longest, deforms, step }
     }
 
     /// Displacement that the body gives a point [m].
@@ -86,12 +91,20 @@ impl BodyMotion {
     }
 
     /// Returns how far a point at `x` that moves by `moved` in the tick moves relative to the body
-    /// [m]; 0 if it does not come near its `shape`. Motion along a plane does not count.
-    pub fn relative_path(&self, shape: &CollisionShape, x: Vec3, moved: Vec3) -> f32 {
+    /// [m]; 0 if it does not come near its shape. Motion along a plane does not count.
+    pub fn relative_path(&self, body: &ColliderBody, x: Vec3, moved: Vec3) -> f32 {
         let path = moved - self.displacement_at(x);
         match self.extent {
             Extent::Box(bounds) => {
-                let is_near = meets_box(&bounds, x, path) && self.comes_near(shape, x, path);
+                if !meets_box(&bounds, x, path) {
+                    return 0.0;
+                }
+                if let Some(deformation) = body.deformation().filter(|_| self.deforms) {
+                    let [from, to] = self.local_path(x, path);
+                    return deformation.longest_relative_path([from, to - from], self.margin);
+                }
+                let shape = body.collision_shape();
+                let is_near = shape.is_some_and(|shape| self.comes_near(shape, x, path));
                 if is_near { path.length() } else { 0.0 }
             }
             Extent::HalfSpace(point, normal) => {
@@ -101,10 +114,15 @@ impl BodyMotion {
         }
     }
 
+    /// The ends of a path in the frame of the body.
+    fn local_path(&self, x: Vec3, path: Vec3) -> [Vec3; 2] {
+        [x, x + path].map(|end| self.start.point_to_local(end))
+    }
+
     /// Whether a path comes near the surface of a shape whose bounds are mostly empty; true for
     /// other shapes.
     fn comes_near(&self, shape: &CollisionShape, x: Vec3, path: Vec3) -> bool {
-        let ends = || [x, x + path].map(|end| self.start.point_to_local(end));
+        let ends = || self.local_path(x, path);
         match shape {
             CollisionShape::TriangleSurface(surface, _) => {
                 surface.has_triangle_near(Aabb::from_points(ends()).expanded(self.margin))
@@ -121,9 +139,9 @@ impl BodyMotion {
     }
 
     /// Returns an upper bound of [`Self::relative_path`] for points in `bounds` that move by a vector
-    /// in `moves` [m]: 0 if none comes near, infinity if the body rotates.
+    /// in `moves` [m]: 0 if none comes near, infinity if the body rotates or deforms.
     pub fn longest_path(&self, bounds: &Aabb, moves: &Aabb) -> f32 {
-        if self.turn.is_some() {
+        if self.turn.is_some() || self.deforms {
             return f32::INFINITY;
         }
         let (low, high) = (moves.low - self.translation, moves.high - self.translation);

@@ -42,7 +42,10 @@ pub(super) fn update_swept_bounds(world: &mut World) {
     if is_new {
         nearby.entries.clear();
     }
-    for body in world.colliders.iter() {
+    for body in world.colliders.iter_mut() {
+        if let Some(deformation) = body.deformation_mut() {
+            deformation.prepare();
+        }
         let Some(shape) = body.collision_shape() else { continue };
         if count == nearby.entries.len() {
             let (smooth, sagitta_margin) = smoothing(shape, world.mean_edge);
@@ -133,10 +136,10 @@ fn rebuild(world: &mut World, margin: f32) {
     nearby.blocks.clear();
     nearby.candidates.clear();
     nearby.longest_edge = 0.0;
-    for (entry, body) in nearby.entries.iter_mut().zip(world.colliders.iter()) {
+    for (entry, body) in nearby.entries.iter_mut().zip(world.colliders.iter_mut()) {
         let Some(shape) = body.collision_shape() else { continue };
         // The bounds of moving colliders get a margin of their own.
-        let slack = if body.last == body.next { 0.0 } else { margin };
+        let slack = if body.is_moving() { margin } else { 0.0 };
         entry.searched = entry.now.expanded(slack);
         entry.candidates = CandidateRange::default();
         entry.first_particles = nearby.blocks.len() as u32;
@@ -166,9 +169,22 @@ fn rebuild(world: &mut World, margin: f32) {
             };
             let distance = margin + gap + entry.sagitta_margin + body.max_arc_deviation(shape);
             let search = PairSearch { distance, smooth: entry.smooth };
+            if let Some(deformation) = body.deformation_mut() {
+                let points = (0..count).flat_map(&local_positions);
+                deformation.pose_for_search(Aabb::from_points(points).expanded(distance));
+            }
+            let Some(shape) = body.collision_shape() else { continue };
             let candidates = &mut nearby.candidates;
             entry.candidates =
                 candidates.push_pairs(shape, &world.mesh, count, local_positions, search);
+            if let Some(deformation) = body.deformation_mut() {
+                let found = candidates.of_range(&entry.candidates);
+                deformation.activate(
+                    found.all_faces(count).iter().copied(),
+                    found.edges.iter().map(|pair| pair.edge),
+                    found.vertices.iter().map(|pair| pair.vertex),
+                );
+            }
         }
         if needs_triangles {
             if nearby.triangle_bounds.is_empty() {

@@ -121,7 +121,8 @@ pub(super) fn push(
             }
         };
         let Some((corners, TriangleContact { weights, penetration })) = contact else { continue };
-        let from = interpolate(corners.map(|i| particles.start_position(i)), weights);
+        let carry = penetration.carry;
+        let from = interpolate(corners.map(|i| start_position(particles, i, carry)), weights);
         let to = interpolate(corners.map(|i| particles.end_position(i)), weights);
         let correction = particles.correction((corners, weights), [from, to], penetration);
         deepest = max(penetration.depth, deepest);
@@ -129,6 +130,14 @@ pub(super) fn push(
         pushes.add(corners, weights, w, correction, penetration);
     }
     deepest
+}
+
+/// Returns the position of a particle at the start of the substep, as a feature that moved by
+/// `carry` since carries it along [m].
+#[inline(always)]
+fn start_position(particles: &LocalParticles<'_>, i: usize, carry: Vec3) -> Vec3 {
+    let start = particles.start_position(i);
+    if carry == Vec3::ZERO { start } else { start + carry }
 }
 
 /// Returns the contact of a cloth edge with an edge feature, as a triangle whose third corner has
@@ -142,7 +151,8 @@ fn edge_contact(
     let edge = &features.edges[pair.edge as usize];
     let [i, j] = pair.particles.map(|i| i as usize);
     let end = [particles.end_position(i), particles.end_position(j)];
-    let start = [particles.start_position(i), particles.start_position(j)];
+    let carry = features.edge_carry(pair.edge);
+    let start = [i, j].map(|i| start_position(particles, i, carry));
     let (normal, height) = edge_normal(edge, end)?;
     if height >= query.gap {
         return None;
@@ -181,6 +191,7 @@ fn edge_contact(
         (edge_crossing(edge, crossing, normal)?, penetration)
     };
     let weights = [1.0 - fraction, fraction, 0.0];
+    let penetration = Penetration { carry, ..penetration };
     Some(([i, j, i], TriangleContact { weights, penetration }))
 }
 
@@ -256,7 +267,8 @@ fn vertex_contact(
     let vertex = &features.vertices[pair.vertex as usize];
     let corners = pair.particles.map(|i| i as usize);
     let end = corners.map(|i| particles.end_position(i));
-    let start = corners.map(|i| particles.start_position(i));
+    let carry = features.vertex_carry(pair.vertex);
+    let start = corners.map(|i| start_position(particles, i, carry));
     let (normal, height) = vertex_normal(features, vertex, end, start)?;
     if height >= query.gap {
         return None;
@@ -284,13 +296,13 @@ fn vertex_contact(
         let depenetration = particles.depenetration;
         let gap = query.gap;
         let penetration = depenetration.penetration(normal, gap, start_height, height)?;
-        TriangleContact { weights, penetration }
+        TriangleContact { weights, penetration: Penetration { carry, ..penetration } }
     } else {
         let (weights, back, _) = point_crossing(vertex.position, start, end)?;
         if back.dot(normal) <= 0.0 {
             return None;
         }
-        let penetration = Penetration::new(normal, query.gap - height);
+        let penetration = Penetration { carry, ..Penetration::new(normal, query.gap - height) };
         TriangleContact { weights, penetration }
     };
     Some((corners, contact))

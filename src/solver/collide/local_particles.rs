@@ -65,12 +65,14 @@ pub(super) struct Penetration {
     pub depth: f32,
     /// Whether friction does not act on it.
     pub is_frictionless: bool,
+    /// How far the surface moved there in the substep, in the frame of the collider [m].
+    pub carry: Vec3,
 }
 
 impl Penetration {
-    /// A penetration with friction.
+    /// A penetration with friction, at a surface that does not move in its frame.
     pub fn new(normal: Vec3, depth: f32) -> Self {
-        Self { normal, depth, is_frictionless: false }
+        Self { normal, depth, is_frictionless: false, carry: Vec3::ZERO }
     }
 }
 
@@ -96,7 +98,7 @@ impl Depenetration {
         let rise = if is_frictionless && self.holds_deep { 0.0 } else { self.max_step };
         let depth = min(gap, start + rise) - end;
         let depth = if is_frictionless { min(depth, self.max_step) } else { depth };
-        (depth > 0.0).then_some(Penetration { normal, depth, is_frictionless })
+        (depth > 0.0).then(|| Penetration { is_frictionless, ..Penetration::new(normal, depth) })
     }
 }
 
@@ -166,7 +168,7 @@ impl LocalParticles<'_> {
         let slide = if self.is_far_from_zero && self.frames[0] == self.frames[1] {
             // Local positions may have lost digits: those in a large collider that the cloth is at
             // the far end of.
-            self.frames[1].vector_to_local(self.path(&corners, &weights)) + out
+            self.frames[1].vector_to_local(self.path(&corners, &weights)) + out - penetration.carry
         } else {
             end + out - start
         };
@@ -175,31 +177,42 @@ impl LocalParticles<'_> {
         out - tangential * self.material.friction_fraction(length, penetration.depth)
     }
 
-    /// Returns the velocity of the collider at a local point, in world space [m/s].
-    fn surface_velocity(&self, at: Vec3) -> Vec3 {
-        if self.frames[0] == self.frames[1] {
-            return Vec3::ZERO;
+    /// Returns the velocity of the collider at a local point, in world space [m/s]. Its surface moved
+    /// there by `carry` [m].
+    fn surface_velocity(&self, at: Vec3, carry: Vec3) -> Vec3 {
+        let mut travel = Vec3::ZERO;
+        if self.frames[0] != self.frames[1] {
+            travel = self.frames[1].point_to_world(at) - self.frames[0].point_to_world(at);
         }
-        let travel = self.frames[1].point_to_world(at) - self.frames[0].point_to_world(at);
+        if carry != Vec3::ZERO {
+            travel += self.frames[1].vector_to_world(carry);
+        }
         travel * (1.0 / self.scheme.h)
     }
 
     /// Moves particle `i`, which itself touches the collider at the local point `at`, by a
-    /// correction in local space [m], and records the contact.
-    pub fn apply_local_correction(&mut self, i: usize, at: Vec3, normal: Vec3, correction: Vec3) {
+    /// correction of a penetration in local space [m], and records the contact.
+    pub fn apply_local_correction(
+        &mut self,
+        i: usize,
+        at: Vec3,
+        Penetration { normal, carry, .. }: Penetration,
+        correction: Vec3,
+    ) {
         let normal = self.frames[1].vector_to_world(normal);
         let correction = self.frames[1].vector_to_world(correction);
-        self.apply_correction(i, at, normal, correction, 1.0);
+        self.apply_correction(i, (at, carry), normal, correction, 1.0);
     }
 
     /// Moves particle `i` by a correction in world space [m] and records the contact, merged with
-    /// an earlier one of the same pair. `weight` is the barycentric weight of the particle in the
+    /// an earlier one of the same pair. `at` is the local point that it touches, where the surface
+    /// moved by `carry` [m]. `weight` is the barycentric weight of the particle in the
     /// contact point. If the list of contacts is full, the particle is moved but neither bounces
     /// nor pushes the collider.
     pub fn apply_correction(
         &mut self,
         i: usize,
-        at: Vec3,
+        (at, carry): (Vec3, Vec3),
         normal: Vec3,
         correction: Vec3,
         weight: f32,
@@ -221,7 +234,7 @@ impl LocalParticles<'_> {
                 body: self.body,
                 weight,
                 normal,
-                surface_velocity: self.surface_velocity(at),
+                surface_velocity: self.surface_velocity(at, carry),
                 approach_velocity: self.v.get(i),
                 correction,
                 gap: self.gap,

@@ -8,7 +8,7 @@
 //! Invariant: every edge of the cloth is listed once per feature.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::features::{Feature, ShapeFeatures};
+use crate::geometry::features::{Feature, ShapeFeatures, SurfaceBend};
 use crate::mesh::{Mesh, NONE};
 use crate::solver::collide::local_particles::LocalParticles;
 use crate::solver::collide::long_triangles::longest_edge_squared;
@@ -63,7 +63,8 @@ impl LongPairs {
             let motion = Aabb::from_points(corners.into_iter().flat_map(path));
             let bounds = motion.expanded(search.distance);
             let all = own.overlapping(bounds);
-            for id in all.filter(|id| search.is_smooth(&own.features.bend(*id))) {
+            let is_bent = |bend: &SurfaceBend| bend.angle > 0.0 && search.is_smooth(bend);
+            for id in all.filter(|id| is_bent(&own.features.bend(*id))) {
                 match own.features.get(id) {
                     Feature::Edge(_) => {
                         for k in 0..3 {

@@ -87,6 +87,14 @@ impl<'a> Candidates<'a> {
         }
     }
 
+    /// Returns the faces near all of `count` particles, some more than once.
+    pub fn all_faces(&self, count: usize) -> &'a [u32] {
+        match (self.face_starts.first(), self.face_starts.get(count)) {
+            (Some(first), Some(end)) => &self.faces[*first as usize..*end as usize],
+            _ => &[],
+        }
+    }
+
     /// Returns the features that the indices of pairs refer to.
     pub fn features(&self, shape: &'a CollisionShape) -> &'a Features {
         features_of(shape).map_or(self.terrain_features, |own| &own.features)
@@ -298,11 +306,12 @@ impl TriangleBlock<'_> {
         let across = mesh.across[triangle];
         let near = block_features.iter().filter(|(_, bounds)| bounds.overlaps(&triangle_bounds));
         for (feature, _) in near {
+            let reach = self.features.reach(*feature);
             match self.features.get(*feature) {
                 Feature::Edge(edge) => {
                     for (k, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
                         let is_own = across[k] == NONE || across[k] as usize > triangle;
-                        if is_own && self.is_edge_near(edge, ends) {
+                        if is_own && self.is_edge_near((edge, reach), ends) {
                             let particles = [corners[k], corners[(k + 1) % 3]];
                             edges.push(EdgeEdgePair { edge: *feature, particles });
                         }
@@ -312,7 +321,8 @@ impl TriangleBlock<'_> {
                     let relative = [a, b, c].map(|corner| corner.center - vertex.position);
                     let closest = interpolate(relative, triangle_to_origin(relative));
                     let distance2 = closest.length_squared();
-                    let most = self.distance + max(max(a.radius, b.radius), c.radius);
+                    let radius = max(max(a.radius, b.radius), c.radius);
+                    let most = self.distance + radius + reach;
                     if distance2.is_nan() || distance2 <= most * most {
                         vertices.push(VertexTrianglePair { vertex: index, particles: corners });
                     }
@@ -321,18 +331,19 @@ impl TriangleBlock<'_> {
         }
     }
 
-    /// Returns whether a cloth edge may come near an edge feature; true for NaN.
-    fn is_edge_near(&self, edge: &EdgeFeature, [a, b]: [MotionBound; 2]) -> bool {
+    /// Returns whether a cloth edge may come near an edge feature, which may be up to `reach` [m]
+    /// away from where it is listed; true for NaN.
+    fn is_edge_near(&self, (edge, reach): (&EdgeFeature, f32), [a, b]: [MotionBound; 2]) -> bool {
         let mut bounds = a.bounds;
         bounds.merge(&b.bounds);
-        if !Aabb::from_points(edge.ends).overlaps(&bounds) {
+        if !Aabb::from_points(edge.ends).expanded(reach).overlaps(&bounds) {
             return false;
         }
         let (s, t) = segment_to_segment(edge.ends, [a.center, b.center]);
         let on_feature = edge.ends[0] + (edge.ends[1] - edge.ends[0]) * s;
         let on_cloth = a.center + (b.center - a.center) * t;
         let distance2 = (on_cloth - on_feature).length_squared();
-        let most = self.distance + max(a.radius, b.radius);
+        let most = self.distance + max(a.radius, b.radius) + reach;
         distance2.is_nan() || distance2 <= most * most
     }
 }

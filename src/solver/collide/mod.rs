@@ -157,7 +157,8 @@ pub(crate) fn project_out(world: &mut World, projection: Projection) {
         world.scratch.contacts.long.invalidate();
     }
     broad_phase::refresh(world);
-    solve_colliders(world, &|body| [body.next.to_transform(); 2], Some(projection));
+    let frames = |body: &ColliderBody| [body.next.to_transform(); 2];
+    solve_colliders(world, &frames, [1.0, 0.0], Some(projection));
     world.scratch.contacts.collider_contacts.clear();
 }
 
@@ -178,7 +179,8 @@ pub(crate) fn project_out_in_substep(
     if world.scratch.contacts.impulses.is_empty() {
         return;
     }
-    let (substeps, max_step) = (world.substeps, MAX_DEPENETRATION_SPEED * world.regular_scheme().h);
+    let (substeps, h) = (world.substeps, world.regular_scheme().h);
+    let max_step = MAX_DEPENETRATION_SPEED * h;
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
@@ -186,6 +188,7 @@ pub(crate) fn project_out_in_substep(
     solve_colliders(
         world,
         &|body| substep_frames(body, substep, substeps),
+        substep_part(substep, substeps),
         Some(Projection::Surface),
     );
     let contacts = &mut world.scratch.contacts;
@@ -208,8 +211,11 @@ pub(crate) fn project_out_in_substep(
         if let (Some(starts), Some(body)) = (starts, body) {
             let [from, to] = substep_frames(body, substep, substeps);
             let start = xyz(&starts[i]);
-            let carried =
+            let mut carried =
                 if from == to { start } else { to.point_to_world(from.point_to_local(start)) };
+            if body.deformation().is_some() {
+                carried = start + projection.surface_velocity * h;
+            }
             push += carried - end;
             end = carried;
             world.particles.x.set(i, end);
@@ -226,27 +232,33 @@ pub(crate) fn solve(world: &mut World, substep: u32) {
     contacts.collider_contacts.clear();
     contacts.forget_late_pushes();
     let substeps = world.substeps;
-    solve_colliders(world, &|body| substep_frames(body, substep, substeps), None);
+    let frames = |body: &ColliderBody| substep_frames(body, substep, substeps);
+    solve_colliders(world, &frames, substep_part(substep, substeps), None);
 }
 
 /// Solves the contacts of all colliders, one after the other. `frames` gives the frames of a
-/// collider at the start and at the end. With `projection` it only pushes out, without friction and
+/// collider at the start and at the end, and `part` is the end and the length of the way of surfaces
+/// that deform, in ticks. With `projection` it only pushes out, without friction and
 /// restitution.
 fn solve_colliders(
     world: &mut World,
     frames: &dyn Fn(&ColliderBody) -> [Transform; 2],
+    part: [f32; 2],
     projection: Option<Projection>,
 ) {
     let scheme = world.scheme();
     let is_projection = projection.is_some();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let contacts = &mut scratch.contacts;
-    for (at, body) in world.colliders.iter().enumerate() {
-        let Some(shape) = body.collision_shape() else { continue };
+    for (at, body) in world.colliders.iter_mut().enumerate() {
         let neighbours = contacts.nearby.of_collider(at);
         if neighbours.particle_blocks.is_empty() {
             continue;
         }
+        if let Some(deformation) = body.deformation_mut() {
+            deformation.pose(part, false);
+        }
+        let Some(shape) = body.collision_shape() else { continue };
         let gap = contact_gap(body, world.material.thickness)
             * projection.map_or(1.0, Projection::gap_share);
         let mut particles = LocalParticles {
@@ -303,6 +315,10 @@ fn solve_colliders(
             contacts.long.measure_after_pushes(new, world.mean_edge, surface, world.level);
         }
         let long = contacts.long.list();
+        if let Some(deformation) = body.deformation_mut().filter(|_| !long.is_empty()) {
+            deformation.pose(part, true);
+        }
+        let Some(shape) = body.collision_shape() else { continue };
         if shape.bends().is_some() {
             let triangle_gap = gap * TRIANGLE_GAP;
             let pairs = &mut contacts.long_pairs;
@@ -439,4 +455,10 @@ fn substep_frames(body: &ColliderBody, substep: u32, substeps: u32) -> [Transfor
         return [body.next.to_transform(); 2];
     }
     [substep, substep + 1].map(|at| body.last.at_substep(&body.next, at, substeps).to_transform())
+}
+
+/// The part of a tick that a substep is: its end and its length, in ticks.
+fn substep_part(substep: u32, substeps: u32) -> [f32; 2] {
+    let end = if substep + 1 == substeps { 1.0 } else { (substep + 1) as f32 / substeps as f32 };
+    [end, 1.0 / substeps as f32]
 }

@@ -74,39 +74,41 @@ pub(super) fn solve_particle(
     candidates: &Candidates<'_>,
     i: usize,
 ) {
-    let (start, end, gap) = (particles.start_position(i), particles.end_position(i), particles.gap);
+    let (from, end, gap) = (particles.start_position(i), particles.end_position(i), particles.gap);
     let depenetration = particles.depenetration;
     let nearby = |surface| CandidateTriangles { surface, triangles: candidates.faces(i) };
     let penetration = match shape {
-        CollisionShape::HalfSpace(solid) => solid_contact(solid, start, end, gap, depenetration),
-        CollisionShape::Sphere(solid) => solid_contact(solid, start, end, gap, depenetration),
-        CollisionShape::Capsule(solid) => solid_contact(solid, start, end, gap, depenetration),
-        CollisionShape::Cuboid(solid, _) => solid_contact(solid, start, end, gap, depenetration),
+        CollisionShape::HalfSpace(solid) => solid_contact(solid, from, end, gap, depenetration),
+        CollisionShape::Sphere(solid) => solid_contact(solid, from, end, gap, depenetration),
+        CollisionShape::Capsule(solid) => solid_contact(solid, from, end, gap, depenetration),
+        CollisionShape::Cuboid(solid, _) => solid_contact(solid, from, end, gap, depenetration),
         CollisionShape::ConvexHull(body, _) => {
             let solid = CandidateFaces { body, faces: candidates.faces(i) };
             if solid.faces.is_empty() {
                 None
             } else {
-                solid_contact(&solid, start, end, gap, depenetration)
+                solid_contact(&solid, from, end, gap, depenetration)
             }
         }
         CollisionShape::TriangleSurface(surface, _) => {
-            surface_contact(&nearby(surface), start, end, max(gap, MIN_SURFACE_GAP))
+            surface_contact(&nearby(surface), from, end, max(gap, MIN_SURFACE_GAP))
         }
-        CollisionShape::Heightfield(terrain) => terrain_contact(terrain, start, end, gap),
+        CollisionShape::Heightfield(terrain) => terrain_contact(terrain, from, end, gap),
     };
     let Some(penetration) = penetration else { return };
+    let carry = penetration.carry;
+    let start = if carry == Vec3::ZERO { from } else { from + carry };
     let correction = particles.correction(([i; 3], [1.0, 0.0, 0.0]), [start, end], penetration);
     // Friction moves along a plane and can cross a bent surface.
     let correction = match shape {
         CollisionShape::TriangleSurface(surface, _)
-            if nearby(surface).first_crossing(start, end + correction).is_some() =>
+            if nearby(surface).first_crossing(from, end + correction).is_some() =>
         {
             start - end
         }
         _ => correction,
     };
-    particles.apply_local_correction(i, end, penetration.normal, correction);
+    particles.apply_local_correction(i, end, penetration, correction);
 }
 
 /// Smallest gap to surfaces without an inside [m]: for a point on the surface the side is unknown.
@@ -121,35 +123,40 @@ const CLEAR: f32 = 0.95;
 
 /// Returns the penetration of a particle at a triangle surface: at the first crossing of its path,
 /// or else at the closest point. If no projection ends on the right side, the particle goes back to
-/// `start`.
+/// `start`, as the surface carries it along.
 fn surface_contact(
     surface: &CandidateTriangles<'_>,
     start: Vec3,
     end: Vec3,
     gap: f32,
 ) -> Option<Penetration> {
-    let mut at = end;
+    let (mut at, mut carry) = (end, Vec3::ZERO);
     for number in 0..MAX_PLANES {
-        if let Some((point, outward)) = surface.first_crossing(start, at) {
-            at += outward * (gap - (at - point).dot(outward));
+        if let Some(point) = surface.first_crossing(start, at) {
+            at += point.outward * (gap - (at - point.at).dot(point.outward));
+            carry = point.carry;
             continue;
         }
         let max_distance = if number == 0 { gap } else { gap * CLEAR };
-        let Some((distance, outward)) = surface.closest(at, start, max_distance) else {
-            return penetration_between(end, at);
+        let Some(point) = surface.closest(at, start, max_distance) else {
+            return penetration_between(end, at, carry);
         };
-        at += outward * (gap - distance);
+        at += point.outward * (gap - point.distance);
+        carry = point.carry;
     }
-    let is_through = surface.first_crossing(start, at).is_some();
-    penetration_between(end, if is_through { start } else { at })
+    if let Some(through) = surface.first_crossing(start, at) {
+        return penetration_between(end, start + through.carry, through.carry);
+    }
+    penetration_between(end, at, carry)
 }
 
-/// Returns the penetration whose resolution moves a point from `end` to `target`; `None` if both
-/// are the same.
-fn penetration_between(end: Vec3, target: Vec3) -> Option<Penetration> {
+/// Returns the penetration whose resolution moves a point from `end` to `target`, at a surface that
+/// moved by `carry`; `None` if both are the same.
+fn penetration_between(end: Vec3, target: Vec3, carry: Vec3) -> Option<Penetration> {
     let out = target - end;
     let depth = out.length();
-    (depth > 0.0).then(|| Penetration::new(out * (1.0 / depth), depth))
+    let penetration = || Penetration { carry, ..Penetration::new(out * (1.0 / depth), depth) };
+    (depth > 0.0).then(penetration)
 }
 
 /// Returns the penetration of a particle at a heightfield: below the ground now, or below it
@@ -175,7 +182,7 @@ fn terrain_contact(terrain: &Heightfield, start: Vec3, end: Vec3, gap: f32) -> O
             _ => break,
         }
     }
-    penetration_between(end, at)
+    penetration_between(end, at, Vec3::ZERO)
 }
 
 /// Returns the penetration of a particle that moved from `start` to `end` at a convex body. One
@@ -202,7 +209,7 @@ fn solid_contact(
             return None;
         }
         let depth = depenetration.max_step;
-        return Some(Penetration { normal: outward, depth, is_frictionless: true });
+        return Some(Penetration { is_frictionless: true, ..Penetration::new(outward, depth) });
     }
     let gap = min(gap, start_distance + depenetration.max_step);
     continuous_contact(solid, start, end, start_distance, gap)

@@ -36,14 +36,21 @@ struct AccumulatedPush {
     correction: Vec3,
     /// Weighted sum of normals.
     normal: Vec3,
+    /// Weighted sum of the motions of the surface [m].
+    carry: Vec3,
     weight: f32,
     /// The largest barycentric weight of the particle in a contact.
     max_barycentric: f32,
 }
 
 impl AccumulatedPush {
-    const NONE: Self =
-        Self { correction: Vec3::ZERO, normal: Vec3::ZERO, weight: 0.0, max_barycentric: 0.0 };
+    const NONE: Self = Self {
+        correction: Vec3::ZERO,
+        normal: Vec3::ZERO,
+        carry: Vec3::ZERO,
+        weight: 0.0,
+        max_barycentric: 0.0,
+    };
 }
 
 impl PushAccumulator {
@@ -83,7 +90,7 @@ impl PushAccumulator {
         weights: [f32; 3],
         w: [f32; 3],
         correction: Vec3,
-        Penetration { normal, depth, .. }: Penetration,
+        Penetration { normal, depth, carry, .. }: Penetration,
     ) {
         let denominator: f32 = (0..3).map(|k| weights[k] * weights[k] * w[k]).sum();
         let is_ignored = self.rollback_depth.is_some_and(|ignored| depth <= ignored);
@@ -102,6 +109,7 @@ impl PushAccumulator {
             let weight = weights[k] * depth;
             sum.correction += correction * (mobility / denominator * weight);
             sum.normal += normal * weight;
+            sum.carry += carry * weight;
             sum.weight += weight;
             if weights[k] > sum.max_barycentric {
                 sum.max_barycentric = weights[k];
@@ -120,14 +128,15 @@ impl PushAccumulator {
                 let frame = particles.frames[1];
                 let normal = frame.vector_to_world(sum.normal * (1.0 / length));
                 let at = particles.end_position(i);
+                let carry = sum.carry * (1.0 / sum.weight);
                 let correction = if self.rollback_depth.is_some() {
-                    particles.start_position(i) - at
+                    particles.start_position(i) - at + carry
                 } else {
                     sum.correction * (1.0 / sum.weight)
                 };
                 self.has_moved |= correction != Vec3::ZERO;
                 let correction = frame.vector_to_world(correction);
-                particles.apply_correction(i, at, normal, correction, sum.max_barycentric);
+                particles.apply_correction(i, (at, carry), normal, correction, sum.max_barycentric);
             }
         }
     }

@@ -38,7 +38,10 @@ pub(crate) fn needed_substeps(world: &mut World, available: f32) -> f32 {
     let (step, margin) = (STEP * world.mean_edge, MARGIN * world.mean_edge);
     // Displacement of a particle in the tick up to which no body needs more substeps [m].
     let mut harmless = f32::INFINITY;
-    for body in world.colliders.iter() {
+    for body in world.colliders.iter_mut() {
+        if let Some(deformation) = body.deformation_mut() {
+            deformation.prepare();
+        }
         let Some(shape) = body.collision_shape() else { continue };
         let (_, sagitta_margin) = smoothing(shape, world.mean_edge);
         let gap = contact_gap(body, world.material.thickness) + sagitta_margin;
@@ -94,17 +97,17 @@ fn any_faster_lanes([x, y, z]: [&[f32]; 3], speed2: f32, is_one_faster: &mut boo
 /// Returns the largest ratio of a relative path to the step of its body, and at least `least`.
 fn largest_ratio(world: &World, bodies: &[BodyMotion], least: f32) -> f32 {
     let (p, tick, mut most) = (&world.particles, world.settings.tick, least);
-    let shapes = || world.colliders.iter().filter_map(|body| body.collision_shape());
+    let with_shape = || world.colliders.iter().filter(|body| body.collision_shape().is_some());
     for first in (0..p.len()).step_by(BLOCK) {
         let block = first..(first + BLOCK).min(p.len());
         let (bounds, moves) = block_bounds(world, block.clone());
-        for (body, shape) in bodies.iter().zip(shapes()) {
-            if body.longest_path(&bounds, &moves) <= most * body.step {
+        for (motion, body) in bodies.iter().zip(with_shape()) {
+            if motion.longest_path(&bounds, &moves) <= most * motion.step {
                 continue;
             }
             for i in block.clone().filter(|i| p.w[*i] > 0.0) {
-                let path = body.relative_path(shape, p.x.get(i), p.v.get(i) * tick);
-                most = max(path / body.step, most);
+                let path = motion.relative_path(body, p.x.get(i), p.v.get(i) * tick);
+                most = max(path / motion.step, most);
             }
         }
     }

@@ -44,7 +44,7 @@ impl World {
                 self.pins.get(grab.particle).is_none()
                     && self.particles.x.get(grab.particle as usize) != grab.target
             })
-            || self.colliders.iter().any(|body| body.last != body.next)
+            || self.colliders.iter().any(|body| body.is_moving())
     }
 
     fn is_still(&self) -> bool {

@@ -62,6 +62,9 @@ pub(crate) fn update(world: &mut World, ticks_left: u32) {
     }
     for body in world.colliders.iter_mut() {
         body.next = body.last.first_step(&body.final_pose, ticks_left);
+        if let Some(deformation) = body.deformation_mut() {
+            deformation.first_step(ticks_left);
+        }
     }
 }
 

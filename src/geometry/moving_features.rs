@@ -1,0 +1,157 @@
+//! The vertices that the edge and vertex features of a moving mesh are made of, by which they are
+//! posed anew.
+//!
+//! Reads triangles once, at construction, and positions when it poses; writes `Features`.
+//! Invariant: a posed feature is the one that a mesh with these positions would have; only features
+//! of flat places, which such a mesh lacks, are kept, without a bend.
+
+use crate::geometry::aabb::Aabb;
+use crate::geometry::bvh::Bvh;
+use crate::geometry::features::{
+    BendHistogram, EdgeFeature, FeatureMotion, FeatureSides, Features, IncidentEdge, ShapeFeatures,
+    SurfaceBend, VertexFeature, weld_positions,
+};
+use crate::math::sort::sort_groups;
+use glam::Vec3;
+
+/// An edge: its two ends, and the opposite vertices of its two triangles.
+#[derive(Clone, Copy, Debug)]
+struct EdgeSource {
+    ends: [u32; 2],
+    opposite: [u32; 2],
+    sides: FeatureSides,
+}
+
+/// The vertices of all features of a mesh.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FeatureSources {
+    edges: Vec<EdgeSource>,
+    vertices: Vec<u32>,
+    /// For each entry of `Features::incident_edges` the edge and its other end.
+    incident: Vec<[u32; 2]>,
+    /// For each vertex the index of its first entry of `incident`, and the number of all.
+    starts: Vec<u32>,
+}
+
+impl FeatureSources {
+    /// Builds all features of triangles, each with an area, and what they are made of. Vertices in
+    /// the same place count as one.
+    pub fn build(positions: &[Vec3], triangles: &[[u32; 3]]) -> (ShapeFeatures, Self) {
+        let welded = weld_positions(positions);
+        let mut sides = Vec::new();
+        for triangle in triangles {
+            let [a, b, c] = triangle.map(|i| welded[i as usize]);
+            for [from, to, opposite] in [[a, b, c], [b, c, a], [c, a, b]] {
+                sides.push(([from.min(to), from.max(to)], opposite));
+            }
+        }
+        sort_groups(&mut sides, |([low, _], _)| *low);
+        let mut sources = Self::default();
+        let mut ends = Vec::new();
+        for same in sides.chunk_by(|a, b| a.0 == b.0) {
+            let is_interior = same.len() == 2;
+            let [from, to] = same[0].0;
+            let edge = sources.edges.len() as u32;
+            ends.extend([([from, to], edge), ([to, from], edge)]);
+            sources.edges.push(EdgeSource {
+                ends: [from, to],
+                opposite: [same[0].1, same[same.len().min(2) - 1].1],
+                sides: if is_interior { FeatureSides::TwoSided } else { FeatureSides::Boundary },
+            });
+        }
+        sort_groups(&mut ends, |([from, _], _)| *from);
+        for own in ends.chunk_by(|a, b| a.0[0] == b.0[0]) {
+            sources.starts.push(sources.incident.len() as u32);
+            sources.vertices.push(own[0].0[0]);
+            sources.incident.extend(own.iter().map(|([_, to], edge)| [*edge, *to]));
+        }
+        sources.starts.push(sources.incident.len() as u32);
+        let features = sources.features(positions);
+        (features, sources)
+    }
+
+    fn features(&self, positions: &[Vec3]) -> ShapeFeatures {
+        let (mut features, mut bends) = (Features::default(), BendHistogram::default());
+        let at = |v: u32| positions[v as usize];
+        for (number, source) in (0..).zip(&self.edges) {
+            features.edges.push(EdgeFeature::flat(source.ends.map(at), source.sides));
+            self.pose_edge(&mut features, number, &at);
+            let bend = features.edges[number as usize].bend;
+            if bend.angle > 0.0 {
+                bends.insert(bend);
+            }
+        }
+        let none = IncidentEdge { direction: Vec3::ZERO, normals: [Vec3::ZERO; 2] };
+        features.incident_edges = vec![none; self.incident.len()];
+        for (number, vertex) in (0..).zip(&self.vertices) {
+            let range = &self.starts[number as usize..];
+            features.vertices.push(VertexFeature::flat(at(*vertex), [range[0], range[1]]));
+            self.pose_vertex(&mut features, number, &at);
+        }
+        features.motions = vec![FeatureMotion::default(); self.edges.len() + self.vertices.len()];
+        let ids = features.ids_since([0; 2]);
+        let bounds: Vec<Aabb> = ids.map(|id| features.bounds(id)).collect();
+        ShapeFeatures { tree: Some(Bvh::build(&bounds)), features, bends }
+    }
+
+    /// Returns the numbers of edges and vertices.
+    pub fn counts(&self) -> [u32; 2] {
+        [self.edges.len(), self.vertices.len()].map(|count| count as u32)
+    }
+
+    /// Returns the ends of the edge with this feature id; `None` if it is a vertex.
+    pub fn edge_ends(&self, id: u32) -> Option<[u32; 2]> {
+        self.edges.get(id as usize).map(|edge| edge.ends)
+    }
+
+    /// Returns the vertex with this feature id.
+    pub fn vertex(&self, id: u32) -> u32 {
+        self.vertices[id as usize - self.edges.len()]
+    }
+
+    /// Returns the edges at a vertex feature, each with its other end.
+    pub fn incident(&self, vertex: u32) -> &[[u32; 2]] {
+        let [first, end] = [0, 1].map(|k| self.starts[vertex as usize + k] as usize);
+        &self.incident[first..end]
+    }
+
+    /// Poses an edge, with the vertices `at` their positions, and returns its ends.
+    pub fn pose_edge(&self, to: &mut Features, edge: u32, at: &dyn Fn(u32) -> Vec3) -> [u32; 2] {
+        let EdgeSource { ends, opposite, sides } = self.edges[edge as usize];
+        let positions = ends.map(at);
+        to.edges[edge as usize] = EdgeFeature::new(positions, opposite.map(at), sides)
+            .unwrap_or(EdgeFeature::flat(positions, sides));
+        ends
+    }
+
+    /// Poses a vertex whose edges are posed, and returns its number in the mesh.
+    pub fn pose_vertex(&self, to: &mut Features, vertex: u32, at: &dyn Fn(u32) -> Vec3) -> u32 {
+        let own = self.vertices[vertex as usize];
+        let first = self.starts[vertex as usize];
+        let mut posed = VertexFeature::flat(at(own), [first; 2]);
+        let mut outward = Vec3::ZERO;
+        for (place, [edge, end]) in (first as usize..).zip(self.incident(vertex)) {
+            let edge = &to.edges[*edge as usize];
+            let along = at(*end) - posed.position;
+            let length = along.length();
+            let direction = along * if length > 0.0 { 1.0 / length } else { 0.0 };
+            to.incident_edges[place] = IncidentEdge { direction, normals: edge.normals };
+            if edge.bend.angle > 0.0 {
+                outward += edge.outward;
+                posed.bend.merge(edge.bend);
+            }
+            if posed.sides == FeatureSides::Solid || edge.sides == FeatureSides::Boundary {
+                posed.sides = edge.sides;
+            }
+            posed.end_edge = place as u32 + 1;
+        }
+        let length = outward.length();
+        if length > 0.0 {
+            posed.outward = outward * (1.0 / length);
+        } else {
+            posed.bend = SurfaceBend::default();
+        }
+        to.vertices[vertex as usize] = posed;
+        own
+    }
+}

@@ -1,0 +1,296 @@
+//! Triangle surfaces whose vertices move: the bodies of characters.
+//!
+//! ```text
+//! vertex at time t of a tick     last + t (next − last)
+//! tree                           boxes of both ends of the tick, refitted when the motion changes
+//! triangles and features         posed where the cloth is, for the substep that asks
+//! ```
+//! All features of the mesh are kept, also those of flat places, which may bend later; a flat one
+//! counts as smooth. In a search for pairs everything stands in the middle of its way, with the
+//! distance that it may be away from there.
+//!
+//! Reads vertices and the pairs near the cloth; writes its triangles and features.
+//! Invariant: contacts depend only on the vertices at both ends of the tick, never on earlier poses.
+
+use crate::geometry::aabb::Aabb;
+use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::features::{FeatureMotion, Features, ShapeFeatures};
+use crate::geometry::moving_features::FeatureSources;
+use crate::geometry::triangle_surface::TriangleSurface;
+use crate::math::{lerp, max};
+use glam::Vec3;
+
+/// A moving triangle surface.
+#[derive(Clone, Debug)]
+pub(crate) struct MovingSurface {
+    /// A triangle surface.
+    shape: CollisionShape,
+    /// The vertices of each triangle.
+    corners: Vec<[u32; 3]>,
+    sources: FeatureSources,
+    /// What the last search found near the cloth.
+    near: ActiveParts,
+    /// What can touch the cloth, of that.
+    active: ActiveParts,
+    /// The part of the tick that is posed: its end and its length, in ticks.
+    posed: Option<[f32; 2]>,
+    /// Whether everything is posed, at rest.
+    is_settled: bool,
+}
+
+/// Triangles, edges and vertices, each listed once.
+#[derive(Clone, Debug, Default)]
+struct ActiveParts {
+    triangles: Marked,
+    edges: Marked,
+    vertices: Marked,
+}
+
+/// A list of numbers, each at most once.
+#[derive(Clone, Debug, Default)]
+struct Marked {
+    list: Vec<u32>,
+    is_listed: Vec<bool>,
+}
+
+impl Marked {
+    /// Makes an empty list for numbers below `count`.
+    fn new(count: usize) -> Self {
+        Self { list: Vec::with_capacity(count), is_listed: vec![false; count] }
+    }
+
+    fn clear(&mut self) {
+        self.list.iter().for_each(|i| self.is_listed[*i as usize] = false);
+        self.list.clear();
+    }
+
+    fn insert(&mut self, i: u32) {
+        if !core::mem::replace(&mut self.is_listed[i as usize], true) {
+            self.list.push(i);
+        }
+    }
+}
+
+impl ActiveParts {
+    fn new(counts: [usize; 3]) -> Self {
+        let [triangles, edges, vertices] = counts.map(Marked::new);
+        Self { triangles, edges, vertices }
+    }
+
+    fn clear(&mut self) {
+        self.triangles.clear();
+        self.edges.clear();
+        self.vertices.clear();
+    }
+
+    /// Adds a vertex and the edges that its normal cone needs.
+    fn insert_vertex(&mut self, vertex: u32, sources: &FeatureSources) {
+        self.vertices.insert(vertex);
+        sources.incident(vertex).iter().for_each(|[edge, _]| self.edges.insert(*edge));
+    }
+}
+
+/// The vertices of a mesh at both ends of a tick.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MovingVertices<'a> {
+    pub last: &'a [Vec3],
+    pub next: &'a [Vec3],
+}
+
+impl MovingVertices<'_> {
+    fn at(&self, vertex: u32, time: f32) -> Vec3 {
+        let (last, next) = (self.last[vertex as usize], self.next[vertex as usize]);
+        if time == 1.0 { next } else { lerp(last, next, time) }
+    }
+
+    fn motion(&self, vertex: u32) -> Vec3 {
+        self.next[vertex as usize] - self.last[vertex as usize]
+    }
+
+    /// The box of both ends of the way of some vertices.
+    fn swept<const COUNT: usize>(&self, vertices: [u32; COUNT]) -> Aabb {
+        Aabb::from_points(vertices.into_iter().flat_map(|v| [self.at(v, 0.0), self.at(v, 1.0)]))
+    }
+
+    /// Half the longest way of some vertices [m].
+    fn reach(&self, vertices: &[u32]) -> f32 {
+        let ways = vertices.iter().map(|v| self.motion(*v).length());
+        ways.fold(0.0, max) * 0.5
+    }
+}
+
+impl MovingSurface {
+    /// Makes a surface of `triangles`, which have an area. `None` if there are none.
+    pub fn new(positions: &[Vec3], triangles: Vec<[u32; 3]>) -> Option<Self> {
+        let mut surface = TriangleSurface::new(positions, &triangles)?;
+        surface.make_movable();
+        let (features, sources) = FeatureSources::build(positions, &triangles);
+        let [edges, vertices] = features.features.counts();
+        let counts = [triangles.len(), edges, vertices];
+        Some(Self {
+            shape: CollisionShape::TriangleSurface(surface, features),
+            corners: triangles,
+            sources,
+            near: ActiveParts::new(counts),
+            active: ActiveParts::new(counts),
+            posed: None,
+            is_settled: false,
+        })
+    }
+
+    /// The surface as it is posed.
+    pub fn shape(&self) -> &CollisionShape {
+        &self.shape
+    }
+
+    fn parts(&mut self) -> Option<(&mut TriangleSurface, &mut ShapeFeatures)> {
+        match &mut self.shape {
+            CollisionShape::TriangleSurface(surface, features) => Some((surface, features)),
+            _ => None,
+        }
+    }
+
+    /// Refits the trees to the way of the vertices in this tick.
+    pub fn refit(&mut self, vertices: MovingVertices<'_>) {
+        (self.posed, self.is_settled) = (None, false);
+        let Self {
+            shape: CollisionShape::TriangleSurface(surface, features),
+            corners,
+            sources,
+            ..
+        } = self
+        else {
+            return;
+        };
+        surface.refit(&|triangle| vertices.swept(corners[triangle as usize]));
+        features.refit(&|id| match sources.edge_ends(id) {
+            Some(ends) => vertices.swept(ends),
+            None => vertices.swept([sources.vertex(id)]),
+        });
+    }
+
+    /// Poses everything near `bounds`, in the frame of the surface, for a search for pairs.
+    pub fn pose_for_search(&mut self, vertices: MovingVertices<'_>, bounds: Aabb) {
+        if self.is_settled {
+            return;
+        }
+        let mut near = core::mem::take(&mut self.near);
+        near.clear();
+        if let CollisionShape::TriangleSurface(surface, features) = &self.shape {
+            surface.overlapping(bounds).for_each(|triangle| near.triangles.insert(triangle));
+            let edge_count = features.features.edges.len() as u32;
+            for id in features.overlapping(bounds) {
+                match id.checked_sub(edge_count) {
+                    Some(vertex) => near.insert_vertex(vertex, &self.sources),
+                    None => near.edges.insert(id),
+                }
+            }
+        }
+        self.pose_parts(vertices, &near, [0.5, 0.0]);
+        self.near = near;
+        self.posed = None;
+    }
+
+    /// Takes over what a search found: candidate triangles, and features by their ids. With
+    /// `has_long_triangles` everything near the cloth can touch it.
+    pub fn activate(
+        &mut self,
+        triangles: impl Iterator<Item = u32>,
+        edges: impl Iterator<Item = u32>,
+        vertices: impl Iterator<Item = u32>,
+    ) {
+        let Self { active, sources, .. } = self;
+        active.clear();
+        triangles.for_each(|triangle| active.triangles.insert(triangle));
+        edges.for_each(|edge| active.edges.insert(edge));
+        vertices.for_each(|vertex| active.insert_vertex(vertex, sources));
+        self.posed = None;
+    }
+
+    /// Poses what can touch the cloth at the end of a part of the tick, with the motion in it. `part`
+    /// is its end and its length, in ticks. With `is_whole` everything near the cloth is posed.
+    pub fn pose(&mut self, vertices: MovingVertices<'_>, part: [f32; 2], is_whole: bool) {
+        if self.is_settled || (self.posed == Some(part) && !is_whole) {
+            return;
+        }
+        let name = if is_whole { &mut self.near } else { &mut self.active };
+        let parts = core::mem::take(name);
+        self.pose_parts(vertices, &parts, part);
+        *(if is_whole { &mut self.near } else { &mut self.active }) = parts;
+        self.posed = Some(part);
+    }
+
+    /// Poses everything where it is at rest.
+    pub fn settle(&mut self, vertices: MovingVertices<'_>) {
+        if self.is_settled {
+            return;
+        }
+        self.near.clear();
+        (0..self.corners.len() as u32).for_each(|triangle| self.near.triangles.insert(triangle));
+        let [edges, features] = self.sources.counts();
+        (0..edges).for_each(|edge| self.near.edges.insert(edge));
+        (0..features).for_each(|vertex| self.near.vertices.insert(vertex));
+        let near = core::mem::take(&mut self.near);
+        self.pose_parts(vertices, &near, [1.0, 0.0]);
+        self.near = near;
+        self.is_settled = true;
+    }
+
+    /// Poses parts at the time `end` of the tick, with the motion in the part of length `length` that
+    /// ends then; a length of 0 is a search.
+    fn pose_parts(
+        &mut self,
+        vertices: MovingVertices<'_>,
+        parts: &ActiveParts,
+        [end, length]: [f32; 2],
+    ) {
+        let (corners, sources) =
+            (core::mem::take(&mut self.corners), core::mem::take(&mut self.sources));
+        let reach = |of: &[u32]| if length == 0.0 { vertices.reach(of) } else { 0.0 };
+        let carry = |v: u32| vertices.motion(v) * length;
+        if let Some((surface, features)) = self.parts() {
+            for triangle in &parts.triangles.list {
+                let own = corners[*triangle as usize];
+                let now = own.map(|v| vertices.at(v, end));
+                let before = [0, 1, 2].map(|k| now[k] - carry(own[k]));
+                surface.pose(*triangle, now, before, reach(&own));
+            }
+            let features: &mut Features = &mut features.features;
+            let at = |v: u32| vertices.at(v, end);
+            for edge in &parts.edges.list {
+                let ends = sources.pose_edge(features, *edge, &at);
+                let carry = (carry(ends[0]) + carry(ends[1])) * 0.5;
+                features.motions[*edge as usize] = FeatureMotion { carry, reach: reach(&ends) };
+            }
+            let edge_count = features.edges.len();
+            for vertex in &parts.vertices.list {
+                let own = sources.pose_vertex(features, *vertex, &at);
+                features.motions[edge_count + *vertex as usize] =
+                    FeatureMotion { carry: carry(own), reach: reach(&[own]) };
+            }
+        }
+        (self.corners, self.sources) = (corners, sources);
+    }
+
+    /// Returns the largest distance that a point which moves along `path` from `at` moves relative to
+    /// triangles near it in the tick [m]; 0 if there are none within `margin` [m].
+    pub fn longest_relative_path(
+        &self,
+        vertices: MovingVertices<'_>,
+        [at, path]: [Vec3; 2],
+        margin: f32,
+    ) -> f32 {
+        let CollisionShape::TriangleSurface(surface, _) = &self.shape else { return 0.0 };
+        let bounds = Aabb::from_points([at, at + path]).expanded(margin);
+        let mut longest2 = 0.0;
+        for triangle in surface.overlapping(bounds) {
+            let own = self.corners[triangle as usize];
+            let motion = own.map(|v| vertices.motion(v));
+            let mean = (motion[0] + motion[1] + motion[2]) * (1.0 / 3.0);
+            if vertices.swept(own).overlaps(&bounds) {
+                longest2 = max((path - mean).length_squared(), longest2);
+            }
+        }
+        longest2.sqrt()
+    }
+}

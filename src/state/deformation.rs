@@ -1,0 +1,178 @@
+//! The deformation of a mesh collider: where its vertices are at both ends of a tick.
+//!
+//! ```text
+//! last ─ ─ ─ next ─ ─ ─ target     the host sets the target; the ticks of an `advance` reach it evenly
+//! ```
+//! Vertices are in the frame of the collider, relative to its center. The descriptor keeps those of
+//! the start, from which trees and features are built, so that a restored collider gives the same
+//! contacts.
+//!
+//! Reads what the host gives; writes its vertices and the posed surface.
+//! Invariant: between ticks `last` is where the surface is.
+
+use crate::error::{Result, check, check_all_finite};
+use crate::geometry::aabb::Aabb;
+use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::moving_surface::{MovingSurface, MovingVertices};
+use crate::math::hasher::StateHasher;
+use crate::math::max;
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// The vertices of a mesh collider that deforms.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Deformation {
+    /// At the end of the last tick [m].
+    last: Vec<Vec3>,
+    /// At the end of the next tick [m].
+    next: Vec<Vec3>,
+    /// At the end of an `advance` [m]; empty if that is `next`.
+    #[serde(skip)]
+    target: Vec<Vec3>,
+    /// `None` between reading a save and `restore`.
+    #[serde(skip)]
+    surface: Option<Box<MovingSurface>>,
+    /// Whether the surface knows the way of the next tick.
+    #[serde(skip)]
+    is_prepared: bool,
+    #[serde(skip)]
+    is_moving: bool,
+    /// The longest way of a vertex in the next tick [m].
+    #[serde(skip)]
+    longest: f32,
+}
+
+impl Deformation {
+    /// Makes the deformation of a mesh at rest at `positions`. `None` without triangles.
+    pub fn new(positions: &[Vec3], triangles: Vec<[u32; 3]>) -> Option<Self> {
+        let surface = MovingSurface::new(positions, triangles)?;
+        Some(Self {
+            last: positions.to_vec(),
+            next: positions.to_vec(),
+            target: positions.to_vec(),
+            surface: Some(Box::new(surface)),
+            is_prepared: false,
+            is_moving: false,
+            longest: 0.0,
+        })
+    }
+
+    /// Builds the surface of a deformation from a save, over the `positions` of the start.
+    pub fn restore(&mut self, positions: &[Vec3], triangles: Vec<[u32; 3]>) -> Result<()> {
+        let field = "collider.deformation";
+        let is_whole = [&self.last, &self.next].iter().all(|list| list.len() == positions.len());
+        check(is_whole, field, "have all vertices")?;
+        check_all_finite(&self.last, field)?;
+        check_all_finite(&self.next, field)?;
+        self.target.clone_from(&self.next);
+        self.is_moving = self.last != self.next;
+        self.surface = MovingSurface::new(positions, triangles).map(Box::new);
+        Ok(())
+    }
+
+    /// The surface as it is posed.
+    pub fn shape(&self) -> Option<&CollisionShape> {
+        self.surface.as_ref().map(|surface| surface.shape())
+    }
+
+    /// The vertices at both ends of the next tick.
+    pub fn vertices(&self) -> MovingVertices<'_> {
+        MovingVertices { last: &self.last, next: &self.next }
+    }
+
+    /// Whether the surface moves in the next tick.
+    pub fn is_moving(&self) -> bool {
+        self.is_moving
+    }
+
+    /// The longest way of a vertex in the next tick [m].
+    pub fn longest(&self) -> f32 {
+        self.longest
+    }
+
+    /// Sets the vertices that the next tick, or the ticks of the next `advance`, reach.
+    pub fn set_target(&mut self, positions: impl Iterator<Item = Vec3>) {
+        self.target.clear();
+        self.target.extend(positions);
+        self.first_step(1);
+    }
+
+    /// Sets the vertices at the end of the next tick: after the first of `count` equal steps to the
+    /// target.
+    pub fn first_step(&mut self, count: u32) {
+        if count == 1 {
+            self.next.copy_from_slice(&self.target);
+        } else {
+            let share = 1.0 / count as f32;
+            for ((next, last), target) in self.next.iter_mut().zip(&self.last).zip(&self.target) {
+                *next = *last + (*target - *last) * share;
+            }
+        }
+        let was_moving = self.is_moving;
+        self.is_moving = self.last != self.next;
+        self.is_prepared &= !self.is_moving && !was_moving;
+    }
+
+    /// Prepares the surface for the way of the next tick.
+    pub fn prepare(&mut self) {
+        let Self { last, next, surface: Some(surface), .. } = self else { return };
+        if self.is_prepared {
+            return;
+        }
+        self.is_prepared = true;
+        let ways = last.iter().zip(&*next).map(|(last, next)| last.distance_squared(*next));
+        self.longest = ways.fold(0.0, max).sqrt();
+        let vertices = MovingVertices { last, next };
+        surface.refit(vertices);
+        if !self.is_moving {
+            surface.settle(vertices);
+        }
+    }
+
+    /// Poses what is near `bounds`, in the frame of the surface, for a search for pairs.
+    pub fn pose_for_search(&mut self, bounds: Aabb) {
+        if let Self { last, next, surface: Some(surface), .. } = self {
+            surface.pose_for_search(MovingVertices { last, next }, bounds);
+        }
+    }
+
+    /// Lists what can touch the cloth, see [`MovingSurface::activate`].
+    pub fn activate(
+        &mut self,
+        triangles: impl Iterator<Item = u32>,
+        edges: impl Iterator<Item = u32>,
+        vertices: impl Iterator<Item = u32>,
+    ) {
+        if let Some(surface) = &mut self.surface {
+            surface.activate(triangles, edges, vertices);
+        }
+    }
+
+    /// Poses the surface for a part of the tick, see [`MovingSurface::pose`].
+    pub fn pose(&mut self, part: [f32; 2], is_whole: bool) {
+        if let Self { last, next, surface: Some(surface), .. } = self {
+            surface.pose(MovingVertices { last, next }, part, is_whole);
+        }
+    }
+
+    /// See [`MovingSurface::longest_relative_path`].
+    pub fn longest_relative_path(&self, path: [Vec3; 2], margin: f32) -> f32 {
+        let surface = self.surface.as_ref();
+        surface.map_or(0.0, |s| s.longest_relative_path(self.vertices(), path, margin))
+    }
+
+    /// Adds the vertices at both ends of the next tick to a hash.
+    pub fn hash(&self, hasher: &mut StateHasher) {
+        for list in [&self.last, &self.next] {
+            list.iter().for_each(|x| hasher.write_f32s(&x.to_array()));
+        }
+    }
+
+    /// Completes the way of a tick. The surface stays posed where it ended.
+    pub fn finish_tick(&mut self) {
+        if self.is_moving {
+            self.last.copy_from_slice(&self.next);
+            (self.is_moving, self.is_prepared) = (false, false);
+        }
+    }
+}
