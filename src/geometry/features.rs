@@ -21,6 +21,8 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
+use crate::geometry::relative_motion::{PartMotion, PointMotion};
+use crate::math::max;
 use crate::math::sort::{sort_by, sort_groups};
 use glam::Vec3;
 
@@ -195,8 +197,8 @@ pub(crate) struct Features {
 pub(super) struct FeatureMotion {
     /// How far it moved in the substep [m]; for an edge, the mean of its ends.
     pub carry: Vec3,
-    /// How far it may be from its pose in a search for pairs [m].
-    pub reach: f32,
+    /// The motion in the tick.
+    pub whole: PartMotion,
 }
 
 /// An edge as seen from one of its ends.
@@ -272,18 +274,24 @@ impl Features {
         }
     }
 
-    /// Returns the bounds of a feature in a search for pairs [m].
+    /// Returns the bounds of a feature, wherever it may be in the tick [m].
     pub fn bounds(&self, id: u32) -> Aabb {
         let bounds = match self.get(id) {
             Feature::Edge(edge) => Aabb::from_points(edge.ends),
             Feature::Vertex(_, vertex) => Aabb { low: vertex.position, high: vertex.position },
         };
-        if self.motions.is_empty() { bounds } else { bounds.expanded(self.reach(id)) }
+        match self.motions.get(id as usize) {
+            Some(motion) => bounds.expanded(motion.whole.longest()),
+            None => bounds,
+        }
     }
 
-    /// Returns how far a feature may be from its pose in a search for pairs [m].
-    pub fn reach(&self, id: u32) -> f32 {
-        self.motions.get(id as usize).map_or(0.0, |motion| motion.reach)
+    /// Returns how far points move relative to a feature, at most [m]; 0 if features do not move.
+    pub fn reach<const COUNT: usize>(&self, id: u32, points: [&PointMotion; COUNT]) -> f32 {
+        match self.motions.get(id as usize) {
+            Some(motion) => points.iter().fold(0.0, |most, p| max(p.reach(&motion.whole), most)),
+            None => 0.0,
+        }
     }
 
     /// Returns how far an edge moved in the substep [m].

@@ -20,6 +20,7 @@ pub(crate) mod moving_surface;
 pub(crate) mod polyhedron;
 pub(crate) mod primitives;
 pub(crate) mod ray;
+pub(crate) mod relative_motion;
 pub(crate) mod signed_distance;
 pub(crate) mod transform;
 pub(crate) mod triangle;

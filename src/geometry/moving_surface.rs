@@ -6,16 +6,17 @@
 //! triangles and features         posed where the cloth is, for the substep that asks
 //! ```
 //! All features of the mesh are kept, also those of flat places, which may bend later; a flat one
-//! counts as smooth. In a search for pairs everything stands in the middle of its way, with the
-//! distance that it may be away from there.
+//! counts as smooth. In a search for pairs everything stands where it is then, and knows its motion
+//! in the tick.
 //!
 //! Reads vertices and the pairs near the cloth; writes its triangles and features.
 //! Invariant: contacts depend only on the vertices at both ends of the tick, never on earlier poses.
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::features::{FeatureMotion, Features, ShapeFeatures};
+use crate::geometry::features::{Features, ShapeFeatures};
 use crate::geometry::moving_features::FeatureSources;
+use crate::geometry::relative_motion::PartMotion;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::{lerp, max};
 use glam::Vec3;
@@ -108,14 +109,19 @@ impl MovingVertices<'_> {
     }
 
     /// The box of both ends of the way of some vertices.
+    #[inline(always)]
     fn swept<const COUNT: usize>(&self, vertices: [u32; COUNT]) -> Aabb {
-        Aabb::from_points(vertices.into_iter().flat_map(|v| [self.at(v, 0.0), self.at(v, 1.0)]))
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for v in vertices {
+            let (last, next) = (self.last[v as usize], self.next[v as usize]);
+            (low, high) = (low.min(last).min(next), high.max(last).max(next));
+        }
+        Aabb { low, high }
     }
 
-    /// Half the longest way of some vertices [m].
-    fn reach(&self, vertices: &[u32]) -> f32 {
-        let ways = vertices.iter().map(|v| self.motion(*v).length());
-        ways.fold(0.0, max) * 0.5
+    /// The motion of a part with these corners in the whole tick.
+    fn motion_of<const COUNT: usize>(&self, vertices: [u32; COUNT]) -> PartMotion {
+        PartMotion::new(vertices.map(|v| self.motion(v)))
     }
 }
 
@@ -169,8 +175,9 @@ impl MovingSurface {
         });
     }
 
-    /// Poses everything near `bounds`, in the frame of the surface, for a search for pairs.
-    pub fn pose_for_search(&mut self, vertices: MovingVertices<'_>, bounds: Aabb) {
+    /// Poses everything near `bounds`, in the frame of the surface, for a search for pairs: where it is
+    /// at `moment` of the tick.
+    pub fn pose_for_search(&mut self, vertices: MovingVertices<'_>, bounds: Aabb, moment: f32) {
         if self.is_settled {
             return;
         }
@@ -186,7 +193,8 @@ impl MovingSurface {
                 }
             }
         }
-        self.pose_parts(vertices, &near, [0.5, 0.0]);
+        self.pose_parts(vertices, &near, [moment, 0.0]);
+        self.set_motions(vertices, &near);
         self.near = near;
         self.posed = None;
     }
@@ -232,12 +240,13 @@ impl MovingSurface {
         (0..features).for_each(|vertex| self.near.vertices.insert(vertex));
         let near = core::mem::take(&mut self.near);
         self.pose_parts(vertices, &near, [1.0, 0.0]);
+        self.set_motions(vertices, &near);
         self.near = near;
         self.is_settled = true;
     }
 
     /// Poses parts at the time `end` of the tick, with the motion in the part of length `length` that
-    /// ends then; a length of 0 is a search.
+    /// ends then.
     fn pose_parts(
         &mut self,
         vertices: MovingVertices<'_>,
@@ -246,30 +255,54 @@ impl MovingSurface {
     ) {
         let (corners, sources) =
             (core::mem::take(&mut self.corners), core::mem::take(&mut self.sources));
-        let reach = |of: &[u32]| if length == 0.0 { vertices.reach(of) } else { 0.0 };
         let carry = |v: u32| vertices.motion(v) * length;
         if let Some((surface, features)) = self.parts() {
             for triangle in &parts.triangles.list {
                 let own = corners[*triangle as usize];
                 let now = own.map(|v| vertices.at(v, end));
                 let before = [0, 1, 2].map(|k| now[k] - carry(own[k]));
-                surface.pose(*triangle, now, before, reach(&own));
+                surface.pose(*triangle, now, before);
             }
             let features: &mut Features = &mut features.features;
             let at = |v: u32| vertices.at(v, end);
             for edge in &parts.edges.list {
                 let ends = sources.pose_edge(features, *edge, &at);
-                let carry = (carry(ends[0]) + carry(ends[1])) * 0.5;
-                features.motions[*edge as usize] = FeatureMotion { carry, reach: reach(&ends) };
+                features.motions[*edge as usize].carry = (carry(ends[0]) + carry(ends[1])) * 0.5;
             }
             let edge_count = features.edges.len();
             for vertex in &parts.vertices.list {
                 let own = sources.pose_vertex(features, *vertex, &at);
-                features.motions[edge_count + *vertex as usize] =
-                    FeatureMotion { carry: carry(own), reach: reach(&[own]) };
+                features.motions[edge_count + *vertex as usize].carry = carry(own);
             }
         }
         (self.corners, self.sources) = (corners, sources);
+    }
+
+    /// Sets the motion of parts in the tick.
+    fn set_motions(&mut self, vertices: MovingVertices<'_>, parts: &ActiveParts) {
+        let Self {
+            shape: CollisionShape::TriangleSurface(surface, features),
+            corners,
+            sources,
+            ..
+        } = self
+        else {
+            return;
+        };
+        for triangle in &parts.triangles.list {
+            surface.set_motion(*triangle, vertices.motion_of(corners[*triangle as usize]));
+        }
+        let edge_count = features.features.edges.len() as u32;
+        let motions = &mut features.features.motions;
+        for edge in &parts.edges.list {
+            if let Some(ends) = sources.edge_ends(*edge) {
+                motions[*edge as usize].whole = vertices.motion_of(ends);
+            }
+        }
+        for vertex in &parts.vertices.list {
+            let id = edge_count + *vertex;
+            motions[id as usize].whole = vertices.motion_of([sources.vertex(id)]);
+        }
     }
 
     /// Returns the largest distance that a point which moves along `path` from `at` moves relative to
@@ -285,12 +318,22 @@ impl MovingSurface {
         let mut longest2 = 0.0;
         for triangle in surface.overlapping(bounds) {
             let own = self.corners[triangle as usize];
-            let motion = own.map(|v| vertices.motion(v));
-            let mean = (motion[0] + motion[1] + motion[2]) * (1.0 / 3.0);
             if vertices.swept(own).overlaps(&bounds) {
-                longest2 = max((path - mean).length_squared(), longest2);
+                longest2 = max((path - vertices.motion_of(own).mean).length_squared(), longest2);
             }
         }
         longest2.sqrt()
+    }
+
+    /// Returns the box of the motions of the triangles whose way overlaps `bounds` [m]; `None` if
+    /// there are none.
+    pub fn motions_near(&self, vertices: MovingVertices<'_>, bounds: Aabb) -> Option<Aabb> {
+        let CollisionShape::TriangleSurface(surface, _) = &self.shape else { return None };
+        let mut motions = None;
+        for triangle in surface.overlapping(bounds) {
+            let all: &mut Aabb = motions.get_or_insert(Aabb::EMPTY);
+            self.corners[triangle as usize].iter().for_each(|v| all.include(vertices.motion(*v)));
+        }
+        motions
     }
 }

@@ -17,6 +17,7 @@
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
 use crate::geometry::closest_points::{interpolate, triangle_to_origin};
+use crate::geometry::relative_motion::{PartMotion, PointMotion};
 use crate::math::TINY;
 use glam::Vec3;
 
@@ -26,8 +27,8 @@ pub(crate) struct TriangleSurface {
     triangles: Vec<SurfaceTriangle>,
     /// The triangles at the start of the substep; empty if they do not move.
     before: Vec<SurfaceTriangle>,
-    /// How far each triangle may be from its pose in a search for pairs [m]; empty likewise.
-    reach: Vec<f32>,
+    /// The motion of each triangle in the tick; empty likewise.
+    motions: Vec<PartMotion>,
     tree: Bvh,
 }
 
@@ -75,24 +76,32 @@ impl TriangleSurface {
         }
         let bounds: Vec<Aabb> =
             all.iter().map(|triangle| Aabb::from_points(triangle.corners)).collect();
-        let (before, reach) = (Vec::new(), Vec::new());
-        (!all.is_empty()).then(|| Self { tree: Bvh::build(&bounds), triangles: all, before, reach })
+        let (before, motions) = (Vec::new(), Vec::new());
+        (!all.is_empty()).then(|| Self {
+            tree: Bvh::build(&bounds),
+            triangles: all,
+            before,
+            motions,
+        })
     }
 
     /// Prepares for triangles that move.
     pub fn make_movable(&mut self) {
         self.before.clone_from(&self.triangles);
-        self.reach = vec![0.0; self.triangles.len()];
+        self.motions = vec![PartMotion::default(); self.triangles.len()];
     }
 
-    /// Sets the corners of a triangle now and at the start of the substep [m], and how far it may be
-    /// from there in a search for pairs [m].
-    pub fn pose(&mut self, triangle: u32, now: [Vec3; 3], before: [Vec3; 3], reach: f32) {
+    /// Sets the corners of a triangle now and at the start of the substep [m].
+    pub fn pose(&mut self, triangle: u32, now: [Vec3; 3], before: [Vec3; 3]) {
         let at = triangle as usize;
         self.triangles[at] = SurfaceTriangle::new(now);
         self.before[at] =
             if before == now { self.triangles[at].clone() } else { SurfaceTriangle::new(before) };
-        self.reach[at] = reach;
+    }
+
+    /// Sets the motion of a triangle in the tick.
+    pub fn set_motion(&mut self, triangle: u32, motion: PartMotion) {
+        self.motions[triangle as usize] = motion;
     }
 
     /// Recomputes the tree from boxes of the triangles.
@@ -128,12 +137,19 @@ impl TriangleSurface {
         self.tree.overlapping(bounds).next().is_some()
     }
 
-    /// Pushes the triangles within `radius` [m] of a point. A distance of NaN counts as near.
-    pub fn push_triangles_near(&self, point: Vec3, radius: f32, triangles: &mut Vec<u32>) {
-        let bounds = Aabb { low: point - Vec3::splat(radius), high: point + Vec3::splat(radius) };
+    /// Pushes the triangles within `radius` [m] of a point, and of those that overlap `bounds` the
+    /// ones that come as near if both move on. A distance of NaN counts as near.
+    pub fn push_triangles_near(
+        &self,
+        (point, motion): (Vec3, &PointMotion),
+        radius: f32,
+        bounds: Aabb,
+        triangles: &mut Vec<u32>,
+    ) {
         let is_near = |triangle: &u32| {
             let SurfaceTriangle { corners, normal } = &self.triangles[*triangle as usize];
-            let radius = radius + self.reach.get(*triangle as usize).unwrap_or(&0.0);
+            let reach = self.motions.get(*triangle as usize).map(|own| motion.reach(own));
+            let radius = radius + reach.unwrap_or(0.0);
             let height = (point - corners[0]).dot(*normal);
             // Negated, so that NaN counts as near.
             let is_far = height.abs() > radius || {
@@ -268,7 +284,10 @@ mod tests {
     /// Returns the triangles near two points.
     fn candidates(surface: &TriangleSurface, from: Vec3, to: Vec3) -> Vec<u32> {
         let mut triangles = Vec::new();
-        surface.push_triangles_near((from + to) * 0.5, (to - from).length() + 0.2, &mut triangles);
+        let (middle, radius) = ((from + to) * 0.5, (to - from).length() + 0.2);
+        let bounds = Aabb::from_points([middle]).expanded(radius);
+        let point = (middle, &PointMotion::default());
+        surface.push_triangles_near(point, radius, bounds, &mut triangles);
         triangles
     }
 

@@ -189,7 +189,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, SelfContacts, piece_momentum::begin_particle_contacts(world));
     timed!(world, SelfContacts, particle_contacts::solve(world));
     timed!(world, SelfContacts, piece_momentum::remove_internal_momentum(world));
-    timed!(world, Pairs, collide::broad_phase::refresh(world));
+    timed!(world, Pairs, collide::refresh_pairs(world, number));
     timed!(world, Contacts, collide::solve(world, number));
     timed!(world, Hold, anchors::project(world, number));
     timed!(world, Pairs, surface_stages::detect_contacts(world));

@@ -170,9 +170,14 @@ impl ColliderBody {
         self.deformation.as_deref_mut()
     }
 
+    /// Whether the collider deforms in the next tick.
+    pub fn is_deforming(&self) -> bool {
+        self.deformation.as_ref().is_some_and(|one| one.is_moving())
+    }
+
     /// Whether the collider moves or deforms in the next tick.
     pub fn is_moving(&self) -> bool {
-        self.last != self.next || self.deformation.as_ref().is_some_and(|one| one.is_moving())
+        self.last != self.next || self.is_deforming()
     }
 
     /// Sets the vertices of a mesh that the next tick, or the ticks of the next `advance`, reach, in

@@ -129,10 +129,10 @@ impl Deformation {
         }
     }
 
-    /// Poses what is near `bounds`, in the frame of the surface, for a search for pairs.
-    pub fn pose_for_search(&mut self, bounds: Aabb) {
+    /// Poses what is near `bounds`, see [`MovingSurface::pose_for_search`].
+    pub fn pose_for_search(&mut self, bounds: Aabb, moment: f32) {
         if let Self { last, next, surface: Some(surface), .. } = self {
-            surface.pose_for_search(MovingVertices { last, next }, bounds);
+            surface.pose_for_search(MovingVertices { last, next }, bounds, moment);
         }
     }
 
@@ -159,6 +159,11 @@ impl Deformation {
     pub fn longest_relative_path(&self, path: [Vec3; 2], margin: f32) -> f32 {
         let surface = self.surface.as_ref();
         surface.map_or(0.0, |s| s.longest_relative_path(self.vertices(), path, margin))
+    }
+
+    /// See [`MovingSurface::motions_near`].
+    pub fn motions_near(&self, bounds: Aabb) -> Option<Aabb> {
+        self.surface.as_ref().and_then(|s| s.motions_near(self.vertices(), bounds))
     }
 
     /// Adds the vertices at both ends of the next tick to a hash.

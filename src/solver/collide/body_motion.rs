@@ -114,6 +114,14 @@ impl BodyMotion {
         }
     }
 
+    /// The box, in the frame of the body, around a box.
+    fn to_local(&self, bounds: &Aabb) -> Aabb {
+        let (center, half) = (self.start.point_to_local(bounds.center()), bounds.half_extents());
+        let size = self.start.axes.map(|axis| axis.abs().dot(half));
+        let half = Vec3::from_array(size);
+        Aabb { low: center - half, high: center + half }
+    }
+
     /// The ends of a path in the frame of the body.
     fn local_path(&self, x: Vec3, path: Vec3) -> [Vec3; 2] {
         [x, x + path].map(|end| self.start.point_to_local(end))
@@ -139,10 +147,23 @@ impl BodyMotion {
     }
 
     /// Returns an upper bound of [`Self::relative_path`] for points in `bounds` that move by a vector
-    /// in `moves` [m]: 0 if none comes near, infinity if the body rotates or deforms.
-    pub fn longest_path(&self, bounds: &Aabb, moves: &Aabb) -> f32 {
-        if self.turn.is_some() || self.deforms {
+    /// in `moves` [m]: 0 if none comes near, infinity if the body rotates.
+    pub fn longest_path(&self, body: &ColliderBody, bounds: &Aabb, moves: &Aabb) -> f32 {
+        if self.turn.is_some() {
             return f32::INFINITY;
+        }
+        if let Some(deformation) = body.deformation().filter(|_| self.deforms) {
+            let [low, high] = [moves.low, moves.high].map(|way| way - self.translation);
+            let space = Aabb {
+                low: bounds.low + low.min(Vec3::ZERO),
+                high: bounds.high + high.max(Vec3::ZERO),
+            };
+            let near = deformation.motions_near(self.to_local(&space).expanded(self.margin));
+            let ways = self
+                .to_local(&Aabb { low: low + self.start.origin, high: high + self.start.origin });
+            return near.map_or(0.0, |own| {
+                (ways.low - own.high).abs().max((ways.high - own.low).abs()).length()
+            });
         }
         let (low, high) = (moves.low - self.translation, moves.high - self.translation);
         let is_near = match &self.extent {

@@ -11,13 +11,14 @@
 //! always listed.
 
 use crate::geometry::aabb::Aabb;
+use crate::geometry::relative_motion::PointMotion;
 use crate::math::{max, min};
 use crate::solver::collide::any_moved::any_moved;
 use crate::solver::collide::contact_distance::{
     contact_gap, longest_free_edge, needs_triangle_tests, smoothing,
 };
 use crate::solver::collide::long_triangles::longest_edge_squared;
-use crate::solver::collide::mid_phase::{CandidateRange, PairSearch};
+use crate::solver::collide::mid_phase::{CandidateRange, MotionBound, PairSearch};
 use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds};
 use crate::solver::collide::particle_bounds;
 use crate::solver::world::World;
@@ -74,8 +75,8 @@ pub(super) fn update_swept_bounds(world: &mut World) {
     }
 }
 
-/// Rebuilds blocks and candidate pairs if they are stale.
-pub(crate) fn refresh(world: &mut World) {
+/// Rebuilds blocks and candidate pairs if they are stale, at `moment` of the tick.
+pub(crate) fn refresh(world: &mut World, moment: f32) {
     let nearby = &world.scratch.contacts.nearby;
     if nearby.entries.is_empty() {
         return;
@@ -84,8 +85,8 @@ pub(crate) fn refresh(world: &mut World) {
     let has_topology_changed = nearby.positions_at_rebuild.x.len() != world.particles.len()
         || nearby.triangles_at_rebuild != world.mesh.triangles.len();
     let is_stale = nearby.is_stale || has_topology_changed;
-    if is_stale || has_particle_moved(world, margin * REBUILD_AT) {
-        rebuild(world, margin);
+    if is_stale || has_particle_moved(world, margin * REBUILD_AT, moment) {
+        rebuild(world, margin, moment);
     }
     refresh_long_triangles(world);
 }
@@ -106,31 +107,56 @@ fn refresh_long_triangles(world: &mut World) {
     contacts.long.refresh(limit, x, &world.mesh.triangles, world.level);
 }
 
-/// Returns whether a particle is farther than `limit` [m] from where it was at the last rebuild.
-fn has_particle_moved(world: &World, limit: f32) -> bool {
+/// Returns whether a particle is farther than `limit` [m] from where the last rebuild expected it at
+/// `moment`.
+fn has_particle_moved(world: &mut World, limit: f32, moment: f32) -> bool {
     let mut has_moved = false;
-    let positions_at_rebuild = world.scratch.contacts.nearby.positions_at_rebuild.slices();
-    let x = world.particles.x.slices();
-    any_moved(world.level, x, positions_at_rebuild, limit * limit, &mut has_moved);
+    let nearby = &mut world.scratch.contacts.nearby;
+    let mut expected = &nearby.positions_at_rebuild;
+    if !nearby.ways.is_empty() {
+        let since = moment - nearby.moment_of_rebuild;
+        nearby.expected.copy_from(&nearby.positions_at_rebuild);
+        for (i, way) in nearby.ways.iter().enumerate() {
+            nearby.expected.add(i, *way * since);
+        }
+        expected = &nearby.expected;
+    }
+    let (x, expected) = (world.particles.x.slices(), expected.slices());
+    any_moved(world.level, x, expected, limit * limit, &mut has_moved);
     has_moved
 }
 
-/// Rebuilds the blocks and candidate pairs of all colliders, to hold until a particle moves by
-/// `margin` [m].
-fn rebuild(world: &mut World, margin: f32) {
+/// Rebuilds the blocks and candidate pairs of all colliders, to hold until a particle is `margin` [m]
+/// from where it is expected: where it is now, or beside surfaces that deform where its velocity
+/// takes it.
+fn rebuild(world: &mut World, margin: f32, moment: f32) {
+    let is_one_deforming = world.colliders.iter().any(|body| body.is_deforming());
+    let (tick, share) = (world.settings.tick, 1.0 / world.substeps as f32);
     let (scratch, x) = (&mut world.scratch, &world.particles.x);
     let nearby = &mut scratch.contacts.nearby;
+    nearby.moment_of_rebuild = moment;
+    nearby.ways.clear();
+    if is_one_deforming {
+        nearby.ways.extend((0..x.x.len()).map(|i| world.particles.v.get(i) * tick));
+    }
+    let left = max(1.0 - moment, 0.0);
+    let ways = &nearby.ways;
+    let forward = |i: usize| ways.get(i).map_or(Vec3::ZERO, |way| *way * left);
     nearby.positions_at_rebuild.copy_from(x);
     nearby.triangles_at_rebuild = world.mesh.triangles.len();
     nearby.is_stale = false;
     // The position now and at the start of the substep: a fast particle is already far from there.
     let both = |i: usize| [x.get(i), scratch.predicted.get(i) - scratch.displacement.get(i)];
+    let path = |i: usize| {
+        let [now, start] = both(i);
+        [now, start, now + forward(i)]
+    };
     let count = world.particles.len();
     nearby.particle_bounds.clear();
     nearby.particle_bounds.extend(
         (0..count)
             .step_by(BLOCK)
-            .map(|first| Aabb::from_points((first..(first + BLOCK).min(count)).flat_map(both))),
+            .map(|first| Aabb::from_points((first..(first + BLOCK).min(count)).flat_map(path))),
     );
     nearby.triangle_bounds.clear();
     nearby.blocks.clear();
@@ -158,25 +184,31 @@ fn rebuild(world: &mut World, margin: f32) {
         }
         if has_features {
             let (last, next) = (body.last.to_transform(), body.next.to_transform());
-            let local_positions = |i: usize| {
-                let [now, start] = both(i);
-                [
-                    last.point_to_local(now),
-                    last.point_to_local(start),
-                    next.point_to_local(now),
-                    next.point_to_local(start),
-                ]
-            };
             let distance = margin + gap + entry.sagitta_margin + body.max_arc_deviation(shape);
             let search = PairSearch { distance, smooth: entry.smooth };
+            let is_deforming = body.is_deforming();
+            let motion_bound = |i: usize| {
+                let [now, start] = both(i);
+                let local = [&last, &next].map(|frame| frame.point_to_local(now));
+                if is_deforming {
+                    let ways = [forward(i), now - start].map(|way| next.vector_to_local(way));
+                    let motion = PointMotion { ways, shares: [left, share] };
+                    let still = [local[0], local[0], local[1], local[1]];
+                    return MotionBound::new(still, distance).with_motion(motion);
+                }
+                let start = [&last, &next].map(|frame| frame.point_to_local(start));
+                let bound = MotionBound::new([local[0], start[0], local[1], start[1]], distance);
+                if is_one_deforming { bound.grown(next.vector_to_local(forward(i))) } else { bound }
+            };
             if let Some(deformation) = body.deformation_mut() {
-                let points = (0..count).flat_map(&local_positions);
-                deformation.pose_for_search(Aabb::from_points(points).expanded(distance));
+                let mut bounds = Aabb::EMPTY;
+                (0..count).for_each(|i| bounds.merge(motion_bound(i).bounds()));
+                deformation.pose_for_search(bounds, moment);
             }
             let Some(shape) = body.collision_shape() else { continue };
             let candidates = &mut nearby.candidates;
             entry.candidates =
-                candidates.push_pairs(shape, &world.mesh, count, local_positions, search);
+                candidates.push_pairs(shape, &world.mesh, count, motion_bound, search);
             if let Some(deformation) = body.deformation_mut() {
                 let found = candidates.of_range(&entry.candidates);
                 deformation.activate(
@@ -191,7 +223,7 @@ fn rebuild(world: &mut World, margin: f32) {
                 let blocks = world.mesh.triangles.chunks(BLOCK);
                 nearby.triangle_bounds.extend(blocks.map(|block| {
                     let corners = block.as_flattened().iter();
-                    Aabb::from_points(corners.flat_map(|i| both(*i as usize)))
+                    Aabb::from_points(corners.flat_map(|i| path(*i as usize)))
                 }));
             }
             for (block, bounds) in nearby.triangle_bounds.iter().enumerate() {

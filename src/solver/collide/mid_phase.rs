@@ -19,6 +19,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{EdgeFeature, Feature, Features, ShapeFeatures, SurfaceBend};
+use crate::geometry::relative_motion::PointMotion;
 use crate::math::max;
 use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Mesh, NONE};
@@ -104,16 +105,18 @@ impl<'a> Candidates<'a> {
 /// A ball that contains all local positions of a particle, and the box of everything that it may
 /// touch.
 #[derive(Clone, Copy, Debug)]
-struct MotionBound {
+pub(super) struct MotionBound {
     center: Vec3,
     /// [m]
     radius: f32,
     bounds: Aabb,
+    /// The motion beyond the ball, which counts relative to a moving surface.
+    motion: PointMotion,
 }
 
 impl MotionBound {
     /// Bounds four positions; `distance` [m] is added to the box.
-    fn new(positions: [Vec3; 4], distance: f32) -> Self {
+    pub fn new(positions: [Vec3; 4], distance: f32) -> Self {
         let center = (positions[0] + positions[1] + positions[2] + positions[3]) * 0.25;
         let mut radius2 = 0.0;
         for position in positions {
@@ -121,7 +124,30 @@ impl MotionBound {
         }
         let radius = radius2.sqrt();
         let half = Vec3::splat(radius + distance);
-        Self { center, radius, bounds: Aabb { low: center - half, high: center + half } }
+        let bounds = Aabb { low: center - half, high: center + half };
+        Self { center, radius, bounds, motion: PointMotion::default() }
+    }
+
+    /// Returns the box of everything that the particle may touch [m].
+    pub fn bounds(&self) -> &Aabb {
+        &self.bounds
+    }
+
+    /// Lets the ball contain all positions moved by `way` too [m].
+    pub fn grown(self, way: Vec3) -> Self {
+        let (half, length) = (way * 0.5, way.length() * 0.5);
+        let low = self.bounds.low + half - Vec3::splat(length);
+        let bounds = Aabb { low, high: self.bounds.high + half + Vec3::splat(length) };
+        Self { center: self.center + half, radius: self.radius + length, bounds, ..self }
+    }
+
+    /// Adds a motion to the box.
+    pub fn with_motion(self, motion: PointMotion) -> Self {
+        let [forward, backward] = motion.ways;
+        let low = forward.min(-backward).min(Vec3::ZERO);
+        let high = forward.max(-backward).max(Vec3::ZERO);
+        let bounds = Aabb { low: self.bounds.low + low, high: self.bounds.high + high };
+        Self { bounds, motion, ..self }
     }
 }
 
@@ -184,21 +210,20 @@ impl ColliderPairs {
         }
     }
 
-    /// Pushes the candidate pairs of a shape and returns their range. `local_positions` gives the
-    /// four local positions of each of `count` particles.
+    /// Pushes the candidate pairs of a shape and returns their range. `motion_bound`
+    /// bounds each of `count` particles.
     pub(super) fn push_pairs(
         &mut self,
         shape: &CollisionShape,
         mesh: &Mesh,
         count: usize,
-        local_positions: impl Fn(usize) -> [Vec3; 4],
+        motion_bound: impl Fn(usize) -> MotionBound,
         search: PairSearch,
     ) -> CandidateRange {
         let (edges, vertices) = (self.edges.len() as u32, self.vertices.len() as u32);
         let first_face_start = self.face_starts.len() as u32;
         self.motion_bounds.clear();
-        let bound = |i: usize| MotionBound::new(local_positions(i), search.distance);
-        self.motion_bounds.extend((0..count).map(bound));
+        self.motion_bounds.extend((0..count).map(motion_bound));
         self.push_faces(shape, search.distance);
         self.push_feature_pairs(shape, mesh, search);
         CandidateRange {
@@ -227,7 +252,8 @@ impl ColliderPairs {
                     body.push_candidate_faces(particle.center, radius, &mut self.faces);
                 }
                 CollisionShape::TriangleSurface(surface, _) => {
-                    surface.push_triangles_near(particle.center, radius, &mut self.faces);
+                    let point = (particle.center, &particle.motion);
+                    surface.push_triangles_near(point, radius, particle.bounds, &mut self.faces);
                 }
                 _ => {}
             }
@@ -306,12 +332,11 @@ impl TriangleBlock<'_> {
         let across = mesh.across[triangle];
         let near = block_features.iter().filter(|(_, bounds)| bounds.overlaps(&triangle_bounds));
         for (feature, _) in near {
-            let reach = self.features.reach(*feature);
             match self.features.get(*feature) {
                 Feature::Edge(edge) => {
                     for (k, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
                         let is_own = across[k] == NONE || across[k] as usize > triangle;
-                        if is_own && self.is_edge_near((edge, reach), ends) {
+                        if is_own && self.is_edge_near((edge, *feature), ends) {
                             let particles = [corners[k], corners[(k + 1) % 3]];
                             edges.push(EdgeEdgePair { edge: *feature, particles });
                         }
@@ -322,6 +347,8 @@ impl TriangleBlock<'_> {
                     let closest = interpolate(relative, triangle_to_origin(relative));
                     let distance2 = closest.length_squared();
                     let radius = max(max(a.radius, b.radius), c.radius);
+                    let motions = [&a.motion, &b.motion, &c.motion];
+                    let reach = self.features.reach(*feature, motions);
                     let most = self.distance + radius + reach;
                     if distance2.is_nan() || distance2 <= most * most {
                         vertices.push(VertexTrianglePair { vertex: index, particles: corners });
@@ -331,18 +358,18 @@ impl TriangleBlock<'_> {
         }
     }
 
-    /// Returns whether a cloth edge may come near an edge feature, which may be up to `reach` [m]
-    /// away from where it is listed; true for NaN.
-    fn is_edge_near(&self, (edge, reach): (&EdgeFeature, f32), [a, b]: [MotionBound; 2]) -> bool {
+    /// Returns whether a cloth edge may come near an edge feature; true for NaN.
+    fn is_edge_near(&self, (edge, id): (&EdgeFeature, u32), [a, b]: [MotionBound; 2]) -> bool {
         let mut bounds = a.bounds;
         bounds.merge(&b.bounds);
-        if !Aabb::from_points(edge.ends).expanded(reach).overlaps(&bounds) {
+        if !self.features.bounds(id).overlaps(&bounds) {
             return false;
         }
         let (s, t) = segment_to_segment(edge.ends, [a.center, b.center]);
         let on_feature = edge.ends[0] + (edge.ends[1] - edge.ends[0]) * s;
         let on_cloth = a.center + (b.center - a.center) * t;
         let distance2 = (on_cloth - on_feature).length_squared();
+        let reach = self.features.reach(id, [&a.motion, &b.motion]);
         let most = self.distance + max(a.radius, b.radius) + reach;
         distance2.is_nan() || distance2 <= most * most
     }

@@ -102,7 +102,7 @@ fn largest_ratio(world: &World, bodies: &[BodyMotion], least: f32) -> f32 {
         let block = first..(first + BLOCK).min(p.len());
         let (bounds, moves) = block_bounds(world, block.clone());
         for (motion, body) in bodies.iter().zip(with_shape()) {
-            if motion.longest_path(&bounds, &moves) <= most * motion.step {
+            if motion.longest_path(body, &bounds, &moves) <= most * motion.step {
                 continue;
             }
             for i in block.clone().filter(|i| p.w[*i] > 0.0) {
