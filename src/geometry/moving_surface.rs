@@ -14,12 +14,16 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::features::{Features, ShapeFeatures};
+use crate::geometry::features::{Features, ShapeFeatures, SurfaceBend};
 use crate::geometry::moving_features::FeatureSources;
 use crate::geometry::relative_motion::PartMotion;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::{lerp, max};
 use glam::Vec3;
+
+/// The first search of a tick measures features in a space that is larger than it needs by this share
+/// of its half size, so that later ones need not.
+const MEASURED_MARGIN: f32 = 0.1;
 
 /// A moving triangle surface.
 #[derive(Clone, Debug)]
@@ -33,6 +37,8 @@ pub(crate) struct MovingSurface {
     near: ActiveParts,
     /// What can touch the cloth, of that.
     active: ActiveParts,
+    /// The space in which the first search of the tick measured features.
+    measured: Option<Aabb>,
     /// The part of the tick that is posed: its end and its length, in ticks.
     posed: Option<[f32; 2]>,
     /// Whether everything is posed, at rest.
@@ -63,6 +69,14 @@ impl Marked {
     fn clear(&mut self) {
         self.list.iter().for_each(|i| self.is_listed[*i as usize] = false);
         self.list.clear();
+    }
+
+    fn retain(&mut self, is_kept: impl Fn(u32) -> bool) {
+        let is_listed = &mut self.is_listed;
+        self.list.retain(|i| {
+            is_listed[*i as usize] = is_kept(*i);
+            is_listed[*i as usize]
+        });
     }
 
     fn insert(&mut self, i: u32) {
@@ -139,6 +153,7 @@ impl MovingSurface {
             sources,
             near: ActiveParts::new(counts),
             active: ActiveParts::new(counts),
+            measured: None,
             posed: None,
             is_settled: false,
         })
@@ -158,7 +173,7 @@ impl MovingSurface {
 
     /// Refits the trees to the way of the vertices in this tick.
     pub fn refit(&mut self, vertices: MovingVertices<'_>) {
-        (self.posed, self.is_settled) = (None, false);
+        (self.measured, self.posed, self.is_settled) = (None, None, false);
         let Self {
             shape: CollisionShape::TriangleSurface(surface, features),
             corners,
@@ -176,25 +191,40 @@ impl MovingSurface {
     }
 
     /// Poses everything near `bounds`, in the frame of the surface, for a search for pairs: where it is
-    /// at `moment` of the tick.
-    pub fn pose_for_search(&mut self, vertices: MovingVertices<'_>, bounds: Aabb, moment: f32) {
+    /// at `moment` of the tick. `is_smooth` says which bends the search leaves out: features are
+    /// measured by the first search of a tick, and later ones pose only the others.
+    pub fn pose_for_search(
+        &mut self,
+        vertices: MovingVertices<'_>,
+        bounds: Aabb,
+        moment: f32,
+        is_smooth: &dyn Fn(&SurfaceBend) -> bool,
+    ) {
         if self.is_settled {
             return;
         }
+        let is_known = self.measured.is_some_and(|measured| measured.contains(&bounds));
         let mut near = core::mem::take(&mut self.near);
-        near.clear();
-        if let CollisionShape::TriangleSurface(surface, features) = &self.shape {
-            surface.overlapping(bounds).for_each(|triangle| near.triangles.insert(triangle));
-            let edge_count = features.features.edges.len() as u32;
-            for id in features.overlapping(bounds) {
-                match id.checked_sub(edge_count) {
-                    Some(vertex) => near.insert_vertex(vertex, &self.sources),
-                    None => near.edges.insert(id),
-                }
+        if is_known {
+            self.pose_parts(vertices, &near, [moment, 0.0]);
+        } else {
+            let all = bounds.expanded(bounds.half_extents().max_element() * MEASURED_MARGIN);
+            self.list_near(all, &mut near);
+            self.pose_parts(vertices, &near, [moment, 0.0]);
+            self.set_motions(vertices, &near);
+            if let CollisionShape::TriangleSurface(_, features) = &self.shape {
+                let Features { edges, vertices, .. } = &features.features;
+                near.edges.retain(|edge| !is_smooth(&edges[edge as usize].bend));
+                near.vertices.retain(|vertex| !is_smooth(&vertices[vertex as usize].bend));
             }
+            near.vertices.list.iter().for_each(|vertex| {
+                self.sources
+                    .incident(*vertex)
+                    .iter()
+                    .for_each(|[edge, _]| near.edges.insert(*edge));
+            });
+            self.measured = Some(all);
         }
-        self.pose_parts(vertices, &near, [moment, 0.0]);
-        self.set_motions(vertices, &near);
         self.near = near;
         self.posed = None;
     }
@@ -216,16 +246,38 @@ impl MovingSurface {
     }
 
     /// Poses what can touch the cloth at the end of a part of the tick, with the motion in it. `part`
-    /// is its end and its length, in ticks. With `is_whole` everything near the cloth is posed.
+    /// is its end and its length, in ticks. With `is_whole` everything near the cloth is posed, also
+    /// what the search left out.
     pub fn pose(&mut self, vertices: MovingVertices<'_>, part: [f32; 2], is_whole: bool) {
         if self.is_settled || (self.posed == Some(part) && !is_whole) {
             return;
         }
-        let name = if is_whole { &mut self.near } else { &mut self.active };
-        let parts = core::mem::take(name);
-        self.pose_parts(vertices, &parts, part);
-        *(if is_whole { &mut self.near } else { &mut self.active }) = parts;
+        if is_whole {
+            let mut near = core::mem::take(&mut self.near);
+            self.list_near(self.measured.unwrap_or(Aabb::ALL), &mut near);
+            self.pose_parts(vertices, &near, part);
+            // The lists of the search are not current any more.
+            (self.near, self.measured) = (near, None);
+        } else {
+            let active = core::mem::take(&mut self.active);
+            self.pose_parts(vertices, &active, part);
+            self.active = active;
+        }
         self.posed = Some(part);
+    }
+
+    /// Lists everything that overlaps `bounds` in the tick.
+    fn list_near(&self, bounds: Aabb, near: &mut ActiveParts) {
+        let CollisionShape::TriangleSurface(surface, features) = &self.shape else { return };
+        near.clear();
+        surface.overlapping(bounds).for_each(|triangle| near.triangles.insert(triangle));
+        let edge_count = features.features.edges.len() as u32;
+        for id in features.overlapping(bounds) {
+            match id.checked_sub(edge_count) {
+                Some(vertex) => near.insert_vertex(vertex, &self.sources),
+                None => near.edges.insert(id),
+            }
+        }
     }
 
     /// Poses everything where it is at rest.

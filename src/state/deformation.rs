@@ -13,6 +13,7 @@
 use crate::error::{Result, check, check_all_finite};
 use crate::geometry::aabb::Aabb;
 use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::features::SurfaceBend;
 use crate::geometry::moving_surface::{MovingSurface, MovingVertices};
 use crate::math::hasher::StateHasher;
 use crate::math::max;
@@ -130,9 +131,14 @@ impl Deformation {
     }
 
     /// Poses what is near `bounds`, see [`MovingSurface::pose_for_search`].
-    pub fn pose_for_search(&mut self, bounds: Aabb, moment: f32) {
+    pub fn pose_for_search(
+        &mut self,
+        bounds: Aabb,
+        moment: f32,
+        is_smooth: &dyn Fn(&SurfaceBend) -> bool,
+    ) {
         if let Self { last, next, surface: Some(surface), .. } = self {
-            surface.pose_for_search(MovingVertices { last, next }, bounds, moment);
+            surface.pose_for_search(MovingVertices { last, next }, bounds, moment, is_smooth);
         }
     }
 

@@ -203,7 +203,7 @@ fn rebuild(world: &mut World, margin: f32, moment: f32) {
             if let Some(deformation) = body.deformation_mut() {
                 let mut bounds = Aabb::EMPTY;
                 (0..count).for_each(|i| bounds.merge(motion_bound(i).bounds()));
-                deformation.pose_for_search(bounds, moment);
+                deformation.pose_for_search(bounds, moment, &|bend| search.is_smooth(bend));
             }
             let Some(shape) = body.collision_shape() else { continue };
             let candidates = &mut nearby.candidates;
