@@ -477,6 +477,11 @@ class Cloth {
   Done teleport_collider(MuslinCollider collider, MuslinVec3 position, MuslinQuat rotation) noexcept {
     return muslin_cloth_teleport_collider(cloth_, collider, position, rotation);
   }
+  /** New vertices of a mesh collider, in its frame. */
+  Done update_collider(MuslinCollider collider, const float *positions, std::uint32_t count,
+                       std::uint32_t stride = 0) noexcept {
+    return muslin_cloth_update_collider(cloth_, collider, positions, stride, count);
+  }
   Done remove_collider(MuslinCollider collider) noexcept {
     return muslin_cloth_remove_collider(cloth_, collider);
   }

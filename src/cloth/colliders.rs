@@ -82,8 +82,15 @@ impl Cloth {
     /// [`Error::BadEntry`](crate::Error::BadEntry) if a vertex is not between −1e6 and 1e6. The cloth
     /// is unchanged.
     pub fn update_collider(&mut self, collider: Collider, positions: &[Vec3]) -> Result<()> {
+        self.check_collider_vertices(collider, positions.len())?;
         let body = self.world.colliders.get_mut(collider.0, "collider")?;
         with_float_env(|| body.update(positions))
+    }
+
+    /// Checks that a collider is a mesh of `count` vertices, for language bindings.
+    #[doc(hidden)]
+    pub fn check_collider_vertices(&self, collider: Collider, count: usize) -> Result<()> {
+        self.world.colliders.get(collider.0, "collider")?.check_vertices(count)
     }
 
     /// Removes a collider. Its handle becomes stale.

@@ -180,17 +180,20 @@ impl ColliderBody {
         self.last != self.next || self.is_deforming()
     }
 
+    /// Returns [`Error::BadValue`](crate::Error::BadValue) unless this is a mesh of `count` vertices.
+    pub fn check_vertices(&self, count: usize) -> Result<()> {
+        check(self.desc.shape == Shape::Mesh, "collider", "be a mesh")?;
+        let is_whole = count == self.desc.positions.len();
+        check(is_whole, "count", "be the number of vertices of the collider")
+    }
+
     /// Sets the vertices of a mesh that the next tick, or the ticks of the next `advance`, reach, in
     /// the local frame [m].
     ///
     /// # Errors
-    /// [`Error::BadValue`](crate::Error::BadValue) if this is no mesh or the number of vertices
-    /// differs; [`Error::BadEntry`](crate::Error::BadEntry) for a vertex that is not near enough. The
-    /// collider is unchanged then.
+    /// [`Error::BadEntry`](crate::Error::BadEntry) for a vertex that is not near enough. The collider
+    /// is unchanged then.
     pub fn update(&mut self, positions: &[Vec3]) -> Result<()> {
-        check(self.desc.shape == Shape::Mesh, "collider", "be a mesh")?;
-        let count = self.desc.positions.len();
-        check(positions.len() == count, "positions", "have all vertices of the collider")?;
         check_coordinates(positions, "positions")?;
         if self.deformation.is_none() {
             let (base, triangles) = self.desc.mesh_surface();

@@ -124,6 +124,33 @@ static void a_collider_is_where_its_last_tick_took_it(void) {
   CHECK(position.y == -4 && rotation.x == 0 && rotation.w == 1);
 }
 
+static void a_mesh_reaches_new_vertices(void) {
+  const float flat[5][3] = {{-9, -9, -9}, {9, -9, -9}, {9, -9, 9}, {-9, -9, 9}, {0, 0, 0}};
+  float raised[4][4] = {{0}};
+  const uint32_t indices[] = {0, 2, 1, 0, 3, 2};
+  MuslinColliderDesc desc;
+  muslin_collider_desc_init(&desc);
+  desc.shape = MUSLIN_SHAPE_MESH;
+  desc.positions = flat[0];
+  desc.vertex_count = 4;
+  desc.indices = indices;
+  desc.index_count = 6;
+  MuslinCollider body;
+  DONE(muslin_cloth_add_collider(cloth, &desc, &body));
+  for (int v = 0; v < 4; v++) {
+    memcpy(raised[v], flat[v], 12);
+    raised[v][1] = -8;
+  }
+  const uint64_t before = hash_of(cloth);
+  REFUSED(muslin_cloth_update_collider(cloth, body, raised[0], 16, 5), MUSLIN_STATUS_BAD_VALUE,
+          "`count` must be the number of vertices");
+  REFUSED(muslin_cloth_update_collider(cloth, body, raised[0], 10, 4), MUSLIN_STATUS_BAD_VALUE, "`stride`");
+  CHECK(hash_of(cloth) == before);
+  DONE(muslin_cloth_update_collider(cloth, body, raised[0], 16, 4));
+  DONE(muslin_cloth_step(cloth, 1));
+  DONE(muslin_cloth_remove_collider(cloth, body));
+}
+
 int main(void) {
   MuslinGridDesc desc;
   muslin_grid_desc_init(&desc);
@@ -135,6 +162,7 @@ int main(void) {
   TEST(pins_are_counted_then_read_with_their_targets);
   TEST(cheap_questions_have_the_answers_of_the_statistics);
   TEST(a_collider_is_where_its_last_tick_took_it);
+  TEST(a_mesh_reaches_new_vertices);
   DONE(muslin_cloth_destroy(cloth));
   return failures != 0;
 }

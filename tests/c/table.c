@@ -343,6 +343,8 @@ static void colliders(void) {
   ROW(muslin_cloth_move_collider, collider, HANDLE, "`collider`", (cloth, body, zero, straight));
   ROW(muslin_cloth_teleport_collider, collider, HANDLE, "`collider`", (cloth, body, zero, straight));
   ROW(muslin_cloth_remove_collider, collider, HANDLE, "`collider`", (cloth, body));
+  OF_NONE(muslin_cloth_update_collider, (none, body, good, 0, 3));
+  ROW(muslin_cloth_update_collider, collider, HANDLE, "`collider`", (cloth, body, good, 0, 3));
   ROW(muslin_cloth_get_collider_impulse, collider, HANDLE, "`collider`", (cloth, body, &linear, NULL));
   ANY(muslin_cloth_get_collider_impulse, out_linear);
   ANY(muslin_cloth_get_collider_impulse, out_angular);
@@ -351,6 +353,21 @@ static void colliders(void) {
   ROW(muslin_cloth_move_collider, rotation, VALUE, "`collider.rotation`", (cloth, body, zero, too_long));
   ROW(muslin_cloth_teleport_collider, position, VALUE, "`collider.position`", (cloth, body, not_finite, straight));
   ROW(muslin_cloth_teleport_collider, rotation, VALUE, "`collider.rotation`", (cloth, body, zero, too_long));
+  ROW(muslin_cloth_update_collider, collider, VALUE, "`collider`", (cloth, body, good, 0, 3));
+  DONE(muslin_cloth_remove_collider(cloth, body));
+  BEGUN(MuslinColliderDesc, mesh, friction, 1);
+  const float corners[] = {0, 9, 0, 1, 9, 0, 0, 9, 1};
+  const uint32_t one[] = {0, 1, 2};
+  mesh.shape = MUSLIN_SHAPE_MESH;
+  mesh.positions = corners;
+  mesh.indices = one;
+  mesh.vertex_count = mesh.index_count = 3;
+  DONE(muslin_cloth_add_collider(cloth, &mesh, &body));
+  const float not_near[] = {0, 9, 0, 1, NAN, 0, 0, 9, 1};
+  ROW(muslin_cloth_update_collider, count, VALUE, "`count`", (cloth, body, corners, 0, 2));
+  ROW(muslin_cloth_update_collider, stride, VALUE, "`stride`", (cloth, body, corners, 8, 3));
+  ROW(muslin_cloth_update_collider, positions, VALUE, "`positions[1]`", (cloth, body, not_near, 0, 3));
+  ROW(muslin_cloth_update_collider, positions, VALUE, "`positions`", (cloth, body, NULL, 0, 3));
   DONE(muslin_cloth_remove_collider(cloth, body));
 }
 

@@ -21,6 +21,7 @@ mod shapes;
 
 mod added_substeps;
 mod colliders;
+mod deforming_colliders;
 mod fast_impacts;
 mod friction_and_contact;
 mod hard_constraints;

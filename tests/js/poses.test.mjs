@@ -101,6 +101,23 @@ test("the mass of the cloth is the sum over its particles", () => {
   assert.throws(() => cloth.mass, /freed/);
 });
 
+test("a mesh collider reaches new vertices and carries the cloth along", () => {
+  const cloth = flag();
+  const [x, y] = [0, 1].map((axis) => cloth.positions[cloth.positions.length - 3 + axis]);
+  const positions = [x - 1, y - 0.3, -1, x + 1, y - 0.3, -1, x + 1, y - 0.3, 1, x - 1, y - 0.3, 1];
+  const body = cloth.addCollider({ shape: "mesh", positions, indices: [0, 2, 1, 0, 3, 2] });
+  body.update(positions.map((value, i) => (i % 3 === 1 ? y + 0.05 : value)));
+  for (let tick = 0; tick < 3; tick++) cloth.advance(1 / 60);
+  assert.ok(cloth.positions[cloth.positions.length - 2] > y + 0.05);
+  const hash = cloth.stateHash();
+  assert.throws(() => body.update(positions.slice(3)), /`count` must be the number of vertices of the collider/);
+  assert.throws(() => body.update([...positions.slice(1), NaN]), /`positions\[3\]` must be between -1e6 and 1e6/);
+  assert.throws(() => body.update(positions.slice(1)), /positions/);
+  assert.equal(cloth.stateHash(), hash);
+  body.remove();
+  assert.throws(() => body.update(positions), /`collider` must be a live collider/);
+});
+
 test("a collider is where its last tick took it", () => {
   const cloth = flag();
   const ball = cloth.addCollider({ shape: "sphere", position: [0, 0, 2], radius: 0.1 });

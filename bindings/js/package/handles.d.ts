@@ -89,6 +89,26 @@ export interface Collider {
    */
   teleport(position: Vec3Like, rotation?: QuatLike): void;
   /**
+   * Gives a mesh collider new vertices, of the same number and with the same triangles: the body of a
+   * character in its next pose, in the frame of the collider, x y z x y z … [m].
+   *
+   * Its surface reaches them evenly over the ticks of the next `advance`, or in the next tick of
+   * `step`, and carries the cloth along on its way. The first call prepares the mesh for that, which
+   * takes as long as adding it.
+   *
+   * @throws if the collider was removed or is no mesh, if the number of vertices differs, or if one
+   * is not between −1e6 and 1e6; the message names it, such as `positions[71]`
+   *
+   * @example
+   * ```js
+   * const body = cloth.addCollider({ shape: "mesh", positions, indices });
+   * // each frame, with the vertices of a skinned mesh:
+   * body.update(skinned);
+   * cloth.advance(seconds);
+   * ```
+   */
+  update(positions: Float32Array | Float64Array | readonly number[]): void;
+  /**
    * Where the collider is now: after the last tick, or where it was added or teleported to since. A
    * pose of `moveTo` counts once a tick has reached it.
    */

@@ -1,7 +1,7 @@
 // Handles to the grabs, attachments and colliders of a cloth. Each holds a function `live` that
 // returns the cloth's RawCloth, or throws if the cloth was freed.
 
-import { toVector } from "./check.js";
+import { toFloat32Array, toVector } from "./check.js";
 import { setState, stateOf } from "./state.js";
 
 /** Passed to constructors by this package only, so that nobody else can construct these classes. */
@@ -95,6 +95,11 @@ export class Collider {
     const pose = nextPose(state, position, rotation);
     live.teleport_collider(handle, pose);
     state.rotation = rotationOf(pose);
+  }
+
+  update(positions) {
+    const { live, handle } = liveStateOf(this, "Collider");
+    live.update_collider(handle, toFloat32Array(positions, "positions", 3));
   }
 
   get pose() {

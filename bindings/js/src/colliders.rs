@@ -54,6 +54,12 @@ impl RawCloth {
         self.cloth.teleport_collider(collider, position, rotation).map_err(to_js_error)
     }
 
+    /// Gives a mesh collider new vertices, x y z x y z … [m].
+    pub fn update_collider(&mut self, collider: u32, positions: &[f32]) -> Result<()> {
+        let positions = packing::to_vectors(positions);
+        self.cloth.update_collider(Collider::from_bits(collider), &positions).map_err(to_js_error)
+    }
+
     /// Returns where a collider is after the last tick: position and rotation.
     pub fn collider_pose(&self, collider: u32) -> Result<Vec<f64>> {
         let collider = Collider::from_bits(collider);

@@ -1,6 +1,6 @@
 //! Colliders: add, move, remove, and read the impulse.
 
-use crate::ffi::pointers::Out;
+use crate::ffi::pointers::{Out, read_vec3s};
 use crate::ffi::versioned_struct::read_struct;
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
@@ -46,6 +46,36 @@ pub extern "C" fn muslin_cloth_move_collider(
     with_cloth(cloth, |cloth| {
         let collider = Collider::from_bits(collider.id);
         Ok(cloth.move_collider(collider, position.into(), rotation.into())?)
+    })
+}
+
+/// Gives a mesh collider new vertices, of the same number and with the same triangles: the body of a
+/// character in its next pose.
+///
+/// Its surface reaches them evenly over the ticks of the next muslin_cloth_advance, or in the next
+/// tick of muslin_cloth_step, and is swept on its way: it carries cloth along. Positions are 3 floats
+/// each, in the frame of the collider [m]; consecutive ones start `stride` bytes apart (0 means 12; a
+/// multiple of 4). muslin_cloth_move_collider moves that frame as before. The first call prepares the
+/// mesh for that, which takes as long as adding it.
+///
+/// @return MUSLIN_STATUS_BAD_HANDLE if the collider was removed; MUSLIN_STATUS_BAD_VALUE if it is no
+/// mesh, `count` is not the number of its vertices, a position is not between -1e6 and 1e6 (the
+/// message names its index) or `stride` is invalid
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_update_collider(
+    cloth: MuslinCloth,
+    collider: MuslinCollider,
+    positions: *const f32,
+    stride: u32,
+    count: u32,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| {
+        let collider = Collider::from_bits(collider.id);
+        // Before the positions are read, so that a wrong count reads no memory.
+        cloth.check_collider_vertices(collider, count as usize)?;
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+        let positions = unsafe { read_vec3s("positions", positions.cast(), stride, count)? };
+        Ok(cloth.update_collider(collider, &positions)?)
     })
 }
 
