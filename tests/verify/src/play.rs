@@ -45,6 +45,14 @@ impl Play {
         self.cloth.move_collider(body.collider, position, rotation)
     }
 
+    /// Gives a mesh body the vertices that it reaches at the end of the next tick.
+    pub fn deform_body(&mut self, index: usize, positions: Vec<Vec3>) -> Result<()> {
+        let body = &mut self.bodies[index];
+        self.cloth.update_collider(body.collider, &positions)?;
+        body.deform(positions);
+        Ok(())
+    }
+
     pub fn grab(&mut self, particle: u32) -> Result<()> {
         let grab = self.cloth.grab_particle(particle)?;
         self.grabs.push((grab, particle));

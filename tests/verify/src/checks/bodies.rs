@@ -11,7 +11,7 @@ use super::bvh::Bvh;
 use super::crossings::count_crossings;
 use super::distance::{segment_to_triangle, triangle_in_box};
 use super::surface::Surface;
-use muslin::glam::{DQuat, DVec3};
+use muslin::glam::{DQuat, DVec3, Vec3};
 use muslin::{Cloth, Collider, ColliderDesc, Shape};
 
 /// Directions of the rays that tell inside from outside; two of three must agree.
@@ -59,12 +59,20 @@ impl Penetration {
 
 impl Body {
     pub fn new(collider: Collider, desc: ColliderDesc) -> Self {
-        let mesh = (desc.shape == Shape::Mesh).then(|| {
+        let mut body = Self { collider, desc, mesh: None };
+        body.deform(body.desc.positions.clone());
+        body
+    }
+
+    /// Sets the vertices of a mesh.
+    pub fn deform(&mut self, positions: Vec<Vec3>) {
+        self.desc.positions = positions;
+        let desc = &self.desc;
+        self.mesh = (desc.shape == Shape::Mesh).then(|| {
             let (indices, _) = desc.indices.as_chunks::<3>();
             let at = |v: u32| desc.positions[v as usize].as_dvec3();
             Bvh::new(indices.iter().map(|t| t.map(at)).collect())
         });
-        Self { collider, desc, mesh }
     }
 
     /// Depth of the cloth in this body; the particles for which `is_held` is true, and triangles

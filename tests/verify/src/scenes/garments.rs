@@ -5,9 +5,9 @@
 mod meshes;
 
 use crate::play::{Play, Scene, Setup};
-use crate::shapes::{capsule, floor, tube};
+use crate::shapes::{capsule, floor, round_mesh, tube};
 use muslin::glam::{Quat, Vec3};
-use muslin::{ColliderDesc, Result, SelfCollision};
+use muslin::{ColliderDesc, MeshDesc, Result, SelfCollision};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 pub fn scenes() -> Vec<Scene> {
@@ -15,14 +15,19 @@ pub fn scenes() -> Vec<Scene> {
         Scene::new("skirt-walk", 240, || skirt(25.0, 1.0, false)),
         Scene::new("skirt-walk-surface", 240, || skirt(25.0, 1.0, true)).short(60),
         Scene::new("skirt-kick", 120, || skirt(44.0, 2.5, false)),
+        Scene::new("skirt-kick-rigid-mesh", 120, || skirt_over(44.0, 2.5, false, &leg_mesh())),
+        Scene::new("skirt-walk-rigid-mesh", 120, || skirt_over(25.0, 1.0, true, &leg_mesh())),
+        Scene::new("skirt-walk-skinned", 120, || skinned_skirt(25.0, 1.0, true)).short(20),
+        Scene::new("skirt-kick-skinned", 120, || skinned_skirt(44.0, 2.5, false)),
+        Scene::new("skirt-kick-skinned-surface", 120, || skinned_skirt(44.0, 2.5, true)),
         Scene::new("shirt-on-torso", 180, shirt),
         Scene::new("sleeve-on-arm", 180, sleeve),
         Scene::new("shirt-heap", 240, shirt_heap),
     ]
 }
 
-/// A skirt with a bound over two legs that turn about x at the hip, to `degrees`, at `rate` [Hz].
-fn skirt(degrees: f32, rate: f32, is_surface: bool) -> Result<Setup> {
+/// A skirt with a bound that hangs from its waist.
+fn skirt_mesh(is_surface: bool) -> MeshDesc {
     let mut desc = tube(64, 26, |ring| {
         let share = ring as f32 / 25.0;
         (0.15 + 0.15 * share, -0.5 * share)
@@ -32,14 +37,50 @@ fn skirt(degrees: f32, rate: f32, is_surface: bool) -> Result<Setup> {
     if is_surface {
         desc.settings.self_collision = SelfCollision::Surface;
     }
-    let mut play = Play::mesh(&desc)?;
+    desc
+}
+
+/// A skirt over the skinned meshes of two legs, which turn about x at the hip as those of `skirt` do.
+fn skinned_skirt(degrees: f32, rate: f32, is_surface: bool) -> Result<Setup> {
+    let mut play = Play::mesh(&skirt_mesh(is_surface))?;
+    let leg = leg_mesh();
+    let pose = {
+        let rest = leg.positions.clone();
+        move |side: f32, angle: f32| -> Vec<Vec3> {
+            let rotation = Quat::from_rotation_x(side * angle);
+            let hip = Vec3::X * (0.075 * side);
+            rest.iter().map(|x| hip + rotation * (*x - Vec3::Y * 0.28)).collect()
+        }
+    };
+    for side in [-1.0, 1.0] {
+        play.add(ColliderDesc { positions: pose(side, 0.0), ..leg.clone() })?;
+    }
+    Ok(Setup::from(play).drive(move |play, tick| {
+        let angle = degrees.to_radians() * (TAU * rate * (tick + 1) as f32 / 60.0).sin();
+        play.deform_body(0, pose(-1.0, angle))?;
+        play.deform_body(1, pose(1.0, angle))
+    }))
+}
+
+/// A leg around the origin, as long and wide as the capsules of `skirt`.
+fn leg_mesh() -> ColliderDesc {
+    round_mesh(24, 20, |_, _| Vec3::new(0.08, 0.28, 0.08))
+}
+
+/// A skirt with a bound over two legs that turn about x at the hip, to `degrees`, at `rate` [Hz].
+fn skirt(degrees: f32, rate: f32, is_surface: bool) -> Result<Setup> {
+    skirt_over(degrees, rate, is_surface, &capsule(0.08, 0.2, Vec3::ZERO))
+}
+
+fn skirt_over(degrees: f32, rate: f32, is_surface: bool, leg: &ColliderDesc) -> Result<Setup> {
+    let mut play = Play::mesh(&skirt_mesh(is_surface))?;
     let pose = move |side: f32, angle: f32| {
         let rotation = Quat::from_rotation_x(side * angle);
         (Vec3::X * (0.075 * side) + rotation * Vec3::NEG_Y * 0.28, rotation)
     };
     for side in [-1.0, 1.0] {
         let (position, rotation) = pose(side, 0.0);
-        play.add(ColliderDesc { rotation, ..capsule(0.08, 0.2, position) })?;
+        play.add(ColliderDesc { rotation, position, ..leg.clone() })?;
     }
     Ok(Setup::from(play).drive(move |play, tick| {
         let angle = degrees.to_radians() * (TAU * rate * (tick + 1) as f32 / 60.0).sin();
