@@ -21,7 +21,7 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
-use crate::geometry::relative_motion::{PartMotion, PointMotion};
+use crate::geometry::relative_motion::{PartMotion, PointMotion, RigidStep};
 use crate::math::max;
 use crate::math::sort::{sort_by, sort_groups};
 use glam::Vec3;
@@ -193,10 +193,10 @@ pub(crate) struct Features {
 }
 
 /// The motion of a feature of a moving mesh.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct FeatureMotion {
-    /// How far it moved in the substep [m]; for an edge, the mean of its ends.
-    pub carry: Vec3,
+    /// In the substep.
+    pub step: RigidStep,
     /// The motion in the tick.
     pub whole: PartMotion,
 }
@@ -294,14 +294,14 @@ impl Features {
         }
     }
 
-    /// Returns how far an edge moved in the substep [m].
-    pub fn edge_carry(&self, edge: u32) -> Vec3 {
-        self.motions.get(edge as usize).map_or(Vec3::ZERO, |motion| motion.carry)
+    /// Returns the motion of an edge in the substep; `None` if features do not move.
+    pub fn edge_step(&self, edge: u32) -> Option<&RigidStep> {
+        self.motions.get(edge as usize).map(|motion| &motion.step)
     }
 
-    /// Returns how far a vertex moved in the substep [m].
-    pub fn vertex_carry(&self, vertex: u32) -> Vec3 {
-        self.edge_carry(vertex + self.edges.len() as u32)
+    /// Returns the motion of a vertex in the substep; `None` if features do not move.
+    pub fn vertex_step(&self, vertex: u32) -> Option<&RigidStep> {
+        self.edge_step(vertex + self.edges.len() as u32)
     }
 
     /// Returns how much the surface bends at a feature.

@@ -11,6 +11,7 @@ use crate::geometry::features::{
     BendHistogram, EdgeFeature, FeatureMotion, FeatureSides, Features, IncidentEdge, ShapeFeatures,
     SurfaceBend, VertexFeature, weld_positions,
 };
+use crate::geometry::relative_motion::{PartMotion, RigidStep};
 use crate::math::sort::sort_groups;
 use glam::Vec3;
 
@@ -88,7 +89,11 @@ impl FeatureSources {
             features.vertices.push(VertexFeature::flat(at(*vertex), [range[0], range[1]]));
             self.pose_vertex(&mut features, number, &at);
         }
-        features.motions = vec![FeatureMotion::default(); self.edges.len() + self.vertices.len()];
+        features.motions =
+            vec![
+                FeatureMotion { step: RigidStep::NONE, whole: PartMotion::default() };
+                self.edges.len() + self.vertices.len()
+            ];
         let ids = features.ids_since([0; 2]);
         let bounds: Vec<Aabb> = ids.map(|id| features.bounds(id)).collect();
         ShapeFeatures { tree: Some(Bvh::build(&bounds)), features, bends }
@@ -122,6 +127,23 @@ impl FeatureSources {
         to.edges[edge as usize] = EdgeFeature::new(positions, opposite.map(at), sides)
             .unwrap_or(EdgeFeature::flat(positions, sides));
         ends
+    }
+
+    /// Returns the outward direction of an edge with the vertices `at` their positions; zero if it is
+    /// flat.
+    pub fn edge_outward(&self, edge: u32, at: &dyn Fn(u32) -> Vec3) -> Vec3 {
+        let EdgeSource { ends, opposite, sides } = self.edges[edge as usize];
+        let edge = EdgeFeature::new(ends.map(at), opposite.map(at), sides);
+        edge.map_or(Vec3::ZERO, |edge| edge.outward)
+    }
+
+    /// Returns the outward direction of a vertex and that of its first edge, with the vertices `at`
+    /// their positions; zero if it is flat.
+    pub fn vertex_directions(&self, vertex: u32, at: &dyn Fn(u32) -> Vec3) -> [Vec3; 2] {
+        let (incident, mut outward) = (self.incident(vertex), Vec3::ZERO);
+        incident.iter().for_each(|[edge, _]| outward += self.edge_outward(*edge, at));
+        let along = at(incident[0][1]) - at(self.vertices[vertex as usize]);
+        [outward, along].map(|v| v.normalize_or_zero())
     }
 
     /// Poses a vertex whose edges are posed, and returns its number in the mesh.

@@ -16,7 +16,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{Features, ShapeFeatures, SurfaceBend};
 use crate::geometry::moving_features::FeatureSources;
-use crate::geometry::relative_motion::PartMotion;
+use crate::geometry::relative_motion::{PartMotion, RigidStep};
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::{lerp, max};
 use glam::Vec3;
@@ -317,14 +317,32 @@ impl MovingSurface {
             }
             let features: &mut Features = &mut features.features;
             let at = |v: u32| vertices.at(v, end);
+            let before = |v: u32| at(v) - carry(v);
             for edge in &parts.edges.list {
                 let ends = sources.pose_edge(features, *edge, &at);
-                features.motions[*edge as usize].carry = (carry(ends[0]) + carry(ends[1])) * 0.5;
+                if length == 0.0 {
+                    features.motions[*edge as usize].step = RigidStep::NONE;
+                    continue;
+                }
+                let now = &features.edges[*edge as usize];
+                let outward = [sources.edge_outward(*edge, &before), now.outward];
+                let old = ends.map(before);
+                let along =
+                    [old[1] - old[0], now.ends[1] - now.ends[0]].map(Vec3::normalize_or_zero);
+                let middle = [(old[0] + old[1]) * 0.5, (now.ends[0] + now.ends[1]) * 0.5];
+                features.motions[*edge as usize].step = RigidStep::new(middle, outward, along);
             }
             let edge_count = features.edges.len();
             for vertex in &parts.vertices.list {
                 let own = sources.pose_vertex(features, *vertex, &at);
-                features.motions[edge_count + *vertex as usize].carry = carry(own);
+                features.motions[edge_count + *vertex as usize].step = if length == 0.0 {
+                    RigidStep::NONE
+                } else {
+                    let [outward, along] = sources.vertex_directions(*vertex, &before);
+                    let [outward_now, along_now] = sources.vertex_directions(*vertex, &at);
+                    let origins = [before(own), at(own)];
+                    RigidStep::new(origins, [outward, outward_now], [along, along_now])
+                };
             }
         }
         (self.corners, self.sources) = (corners, sources);

@@ -53,3 +53,51 @@ impl PointMotion {
         max(reach(0), reach(1))
     }
 }
+
+/// The rigid motion of a feature in a substep: of a point of it and of the directions around it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RigidStep {
+    /// The point at the start and at the end [m].
+    origins: [Vec3; 2],
+    /// Three directions at the start and at the end, each perpendicular to the others and of length
+    /// one; `None` if it does not turn.
+    axes: Option<[[Vec3; 3]; 2]>,
+}
+
+impl RigidStep {
+    /// No motion.
+    pub const NONE: Self = Self { origins: [Vec3::ZERO; 2], axes: None };
+
+    /// Returns the motion of a point with an outward direction and one along the surface, at the start
+    /// and at the end. It does not turn where these are no two directions.
+    pub fn new(origins: [Vec3; 2], outward: [Vec3; 2], along: [Vec3; 2]) -> Self {
+        let frame = |k: usize| {
+            let along = along[k] - outward[k] * outward[k].dot(along[k]);
+            let length = along.length();
+            let along = along * (1.0 / length);
+            let is_frame = length > MIN_LENGTH && outward[k].length_squared() > 0.5;
+            is_frame.then(|| [outward[k], along, outward[k].cross(along)])
+        };
+        let axes = (origins[0] != origins[1]).then(|| Some([frame(0)?, frame(1)?])).flatten();
+        Self { origins, axes }
+    }
+
+    /// Returns where the motion takes a point [m].
+    #[inline(always)]
+    pub fn carry(&self, x: Vec3) -> Vec3 {
+        let [from, to] = self.origins;
+        match &self.axes {
+            None if from == to => x,
+            None => x + (to - from),
+            Some([before, after]) => {
+                let x = x - from;
+                to + after[0] * x.dot(before[0])
+                    + after[1] * x.dot(before[1])
+                    + after[2] * x.dot(before[2])
+            }
+        }
+    }
+}
+
+/// Directions shorter than this give no frame.
+const MIN_LENGTH: f32 = 1.0e-3;

@@ -17,6 +17,7 @@
 use crate::geometry::closest_points::interpolate;
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{EdgeFeature, FeatureSides, Features, VertexFeature};
+use crate::geometry::relative_motion::RigidStep;
 use crate::math::{TINY, max, min};
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
 use crate::solver::collide::mid_phase::{EdgeEdgePair, VertexTrianglePair};
@@ -113,16 +114,24 @@ pub(super) fn push(
     let mut deepest = 0.0;
     for at in close_pairs {
         let at = *at as usize;
-        let contact = match edges.get(at) {
-            Some(pair) => edge_contact(query, features, particles, pair),
+        let (contact, step) = match edges.get(at) {
+            Some(pair) => {
+                let step = features.edge_step(pair.edge);
+                (edge_contact(query, features, particles, (pair, step)), step)
+            }
             None => {
                 let pair = &vertices[at - edges.len()];
-                vertex_contact(query, features, particles, pair)
+                let step = features.vertex_step(pair.vertex);
+                (vertex_contact(query, features, particles, (pair, step)), step)
             }
         };
         let Some((corners, TriangleContact { weights, penetration })) = contact else { continue };
-        let carry = penetration.carry;
-        let from = interpolate(corners.map(|i| start_position(particles, i, carry)), weights);
+        let mut penetration = penetration;
+        let mut from = interpolate(corners.map(|i| particles.start_position(i)), weights);
+        if let Some(step) = step {
+            penetration.carry = step.carry(from) - from;
+            from += penetration.carry;
+        }
         let to = interpolate(corners.map(|i| particles.end_position(i)), weights);
         let correction = particles.correction((corners, weights), [from, to], penetration);
         deepest = max(penetration.depth, deepest);
@@ -132,12 +141,12 @@ pub(super) fn push(
     deepest
 }
 
-/// Returns the position of a particle at the start of the substep, as a feature that moved by
-/// `carry` since carries it along [m].
+/// Returns the position of a particle at the start of the substep, as a feature that moved since
+/// carries it along [m].
 #[inline(always)]
-fn start_position(particles: &LocalParticles<'_>, i: usize, carry: Vec3) -> Vec3 {
+fn start_position(particles: &LocalParticles<'_>, i: usize, step: Option<&RigidStep>) -> Vec3 {
     let start = particles.start_position(i);
-    if carry == Vec3::ZERO { start } else { start + carry }
+    step.map_or(start, |step| step.carry(start))
 }
 
 /// Returns the contact of a cloth edge with an edge feature, as a triangle whose third corner has
@@ -146,13 +155,12 @@ fn edge_contact(
     query: &FeatureQuery<'_>,
     features: &Features,
     particles: &LocalParticles<'_>,
-    pair: &EdgeEdgePair,
+    (pair, step): (&EdgeEdgePair, Option<&RigidStep>),
 ) -> Option<([usize; 3], TriangleContact)> {
     let edge = &features.edges[pair.edge as usize];
     let [i, j] = pair.particles.map(|i| i as usize);
     let end = [particles.end_position(i), particles.end_position(j)];
-    let carry = features.edge_carry(pair.edge);
-    let start = [i, j].map(|i| start_position(particles, i, carry));
+    let start = [i, j].map(|i| start_position(particles, i, step));
     let (normal, height) = edge_normal(edge, end)?;
     if height >= query.gap {
         return None;
@@ -191,7 +199,6 @@ fn edge_contact(
         (edge_crossing(edge, crossing, normal)?, penetration)
     };
     let weights = [1.0 - fraction, fraction, 0.0];
-    let penetration = Penetration { carry, ..penetration };
     Some(([i, j, i], TriangleContact { weights, penetration }))
 }
 
@@ -262,13 +269,12 @@ fn vertex_contact(
     query: &FeatureQuery<'_>,
     features: &Features,
     particles: &LocalParticles<'_>,
-    pair: &VertexTrianglePair,
+    (pair, step): (&VertexTrianglePair, Option<&RigidStep>),
 ) -> Option<([usize; 3], TriangleContact)> {
     let vertex = &features.vertices[pair.vertex as usize];
     let corners = pair.particles.map(|i| i as usize);
     let end = corners.map(|i| particles.end_position(i));
-    let carry = features.vertex_carry(pair.vertex);
-    let start = corners.map(|i| start_position(particles, i, carry));
+    let start = corners.map(|i| start_position(particles, i, step));
     let (normal, height) = vertex_normal(features, vertex, end, start)?;
     if height >= query.gap {
         return None;
@@ -296,13 +302,13 @@ fn vertex_contact(
         let depenetration = particles.depenetration;
         let gap = query.gap;
         let penetration = depenetration.penetration(normal, gap, start_height, height)?;
-        TriangleContact { weights, penetration: Penetration { carry, ..penetration } }
+        TriangleContact { weights, penetration }
     } else {
         let (weights, back, _) = point_crossing(vertex.position, start, end)?;
         if back.dot(normal) <= 0.0 {
             return None;
         }
-        let penetration = Penetration { carry, ..Penetration::new(normal, query.gap - height) };
+        let penetration = Penetration::new(normal, query.gap - height);
         TriangleContact { weights, penetration }
     };
     Some((corners, contact))
