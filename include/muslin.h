@@ -1810,6 +1810,26 @@ MuslinStatus muslin_cloth_move_collider(MuslinCloth cloth,
                                         MuslinQuat rotation);
 
 /**
+ * Gives a mesh collider new vertices, of the same number and with the same triangles: the body of a
+ * character in its next pose.
+ *
+ * Its surface reaches them evenly over the ticks of the next muslin_cloth_advance, or in the next
+ * tick of muslin_cloth_step, and is swept on its way: it carries cloth along. Positions are 3 floats
+ * each, in the frame of the collider [m]; consecutive ones start `stride` bytes apart (0 means 12; a
+ * multiple of 4). muslin_cloth_move_collider moves that frame as before. The first call prepares the
+ * mesh for that, which takes as long as adding it.
+ *
+ * @return MUSLIN_STATUS_BAD_HANDLE if the collider was removed; MUSLIN_STATUS_BAD_VALUE if it is no
+ * mesh, `count` is not the number of its vertices, a position is not between -1e6 and 1e6 (the
+ * message names its index) or `stride` is invalid
+ */
+MuslinStatus muslin_cloth_update_collider(MuslinCloth cloth,
+                                          MuslinCollider collider,
+                                          const float *positions,
+                                          uint32_t stride,
+                                          uint32_t count);
+
+/**
  * Removes a collider. Its handle becomes stale.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if it was removed before

@@ -254,17 +254,11 @@ impl CandidateTriangles<'_> {
                 } else {
                     (height.abs(), outward)
                 };
-                least = (distance2, Some((number, weights, distance, outward)));
+                least = (distance2, Some((number, distance, outward)));
             }
         }
-        least.1.map(|(number, weights, distance, outward)| {
-            let carry = match self.surface.before.get(number as usize) {
-                Some(before) => {
-                    let now = &self.surface.triangles[number as usize];
-                    interpolate([0, 1, 2].map(|k| now.corners[k] - before.corners[k]), weights)
-                }
-                None => Vec3::ZERO,
-            };
+        least.1.map(|(number, distance, outward)| {
+            let carry = self.surface.carry(number, from);
             SurfacePoint { at: point - outward * distance, distance, outward, carry }
         })
     }

@@ -127,8 +127,10 @@ pub(super) fn push(
         };
         let Some((corners, TriangleContact { weights, penetration })) = contact else { continue };
         let mut penetration = penetration;
-        let mut from = interpolate(corners.map(|i| particles.start_position(i)), weights);
+        let start = corners.map(|i| particles.start_position(i));
+        let (mut from, mut carries) = (interpolate(start, weights), [Vec3::ZERO; 3]);
         if let Some(step) = step {
+            carries = start.map(|x| step.carry(x) - x);
             penetration.carry = step.carry(from) - from;
             from += penetration.carry;
         }
@@ -136,7 +138,7 @@ pub(super) fn push(
         let correction = particles.correction((corners, weights), [from, to], penetration);
         deepest = max(penetration.depth, deepest);
         let w = corners.map(|i| particles.w[i]);
-        pushes.add(corners, weights, w, correction, penetration);
+        pushes.add(corners, weights, w, correction, penetration, carries);
     }
     deepest
 }

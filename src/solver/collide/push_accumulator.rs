@@ -83,14 +83,16 @@ impl PushAccumulator {
     }
 
     /// Adds the correction of a point of a triangle, given by its barycentric weights, to the
-    /// corners. `w` are their inverse masses; vectors are in local space.
+    /// corners. `w` are their inverse masses, `carries` the ways that the surface carries them in the
+    /// substep [m]; vectors are in local space.
     pub fn add(
         &mut self,
         corners: [usize; 3],
         weights: [f32; 3],
         w: [f32; 3],
         correction: Vec3,
-        Penetration { normal, depth, carry, .. }: Penetration,
+        Penetration { normal, depth, .. }: Penetration,
+        carries: [Vec3; 3],
     ) {
         let denominator: f32 = (0..3).map(|k| weights[k] * weights[k] * w[k]).sum();
         let is_ignored = self.rollback_depth.is_some_and(|ignored| depth <= ignored);
@@ -109,7 +111,7 @@ impl PushAccumulator {
             let weight = weights[k] * depth;
             sum.correction += correction * (mobility / denominator * weight);
             sum.normal += normal * weight;
-            sum.carry += carry * weight;
+            sum.carry += carries[k] * weight;
             sum.weight += weight;
             if weights[k] > sum.max_barycentric {
                 sum.max_barycentric = weights[k];

@@ -82,7 +82,7 @@ pub(super) fn solve(
         let correction = particles.correction((corners, weights), [from, to], penetration);
         deepest = max(penetration.depth, deepest);
         let w = corners.map(|i| particles.w[i]);
-        pushes.add(corners, weights, w, correction, penetration);
+        pushes.add(corners, weights, w, correction, penetration, [Vec3::ZERO; 3]);
     };
     let is_far = |corners: [usize; 3], limit: f32| corners.iter().all(|i| clearance[*i] > limit);
     let motion = |corners: [usize; 3]| TriangleMotion {

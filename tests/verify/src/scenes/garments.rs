@@ -15,11 +15,8 @@ pub fn scenes() -> Vec<Scene> {
         Scene::new("skirt-walk", 240, || skirt(25.0, 1.0, false)),
         Scene::new("skirt-walk-surface", 240, || skirt(25.0, 1.0, true)).short(60),
         Scene::new("skirt-kick", 120, || skirt(44.0, 2.5, false)),
-        Scene::new("skirt-kick-rigid-mesh", 120, || skirt_over(44.0, 2.5, false, &leg_mesh())),
-        Scene::new("skirt-walk-rigid-mesh", 120, || skirt_over(25.0, 1.0, true, &leg_mesh())),
-        Scene::new("skirt-walk-skinned", 120, || skinned_skirt(25.0, 1.0, true)).short(20),
-        Scene::new("skirt-kick-skinned", 120, || skinned_skirt(44.0, 2.5, false)),
-        Scene::new("skirt-kick-skinned-surface", 120, || skinned_skirt(44.0, 2.5, true)),
+        Scene::new("skirt-walk-skinned", 120, || skinned_skirt(25.0, 1.0, false)),
+        Scene::new("skirt-walk-skinned-surface", 120, || skinned_skirt(25.0, 1.0, true)).short(20),
         Scene::new("shirt-on-torso", 180, shirt),
         Scene::new("sleeve-on-arm", 180, sleeve),
         Scene::new("shirt-heap", 240, shirt_heap),
@@ -69,10 +66,6 @@ fn leg_mesh() -> ColliderDesc {
 
 /// A skirt with a bound over two legs that turn about x at the hip, to `degrees`, at `rate` [Hz].
 fn skirt(degrees: f32, rate: f32, is_surface: bool) -> Result<Setup> {
-    skirt_over(degrees, rate, is_surface, &capsule(0.08, 0.2, Vec3::ZERO))
-}
-
-fn skirt_over(degrees: f32, rate: f32, is_surface: bool, leg: &ColliderDesc) -> Result<Setup> {
     let mut play = Play::mesh(&skirt_mesh(is_surface))?;
     let pose = move |side: f32, angle: f32| {
         let rotation = Quat::from_rotation_x(side * angle);
@@ -80,7 +73,7 @@ fn skirt_over(degrees: f32, rate: f32, is_surface: bool, leg: &ColliderDesc) -> 
     };
     for side in [-1.0, 1.0] {
         let (position, rotation) = pose(side, 0.0);
-        play.add(ColliderDesc { rotation, position, ..leg.clone() })?;
+        play.add(ColliderDesc { rotation, ..capsule(0.08, 0.2, position) })?;
     }
     Ok(Setup::from(play).drive(move |play, tick| {
         let angle = degrees.to_radians() * (TAU * rate * (tick + 1) as f32 / 60.0).sin();
