@@ -129,21 +129,18 @@ impl FeatureSources {
         ends
     }
 
-    /// Returns the outward direction of an edge with the vertices `at` their positions; zero if it is
-    /// flat.
-    pub fn edge_outward(&self, edge: u32, at: &dyn Fn(u32) -> Vec3) -> Vec3 {
-        let EdgeSource { ends, opposite, sides } = self.edges[edge as usize];
-        let edge = EdgeFeature::new(ends.map(at), opposite.map(at), sides);
-        edge.map_or(Vec3::ZERO, |edge| edge.outward)
+    /// Returns the direction of an edge and the normal of its first face, with the vertices `at` their
+    /// positions; zero where there is none. The outward direction of a nearly flat edge would turn over
+    /// when it bends the other way.
+    pub fn edge_directions(&self, edge: u32, at: &dyn Fn(u32) -> Vec3) -> [Vec3; 2] {
+        let EdgeSource { ends: [from, to], opposite: [third, _], .. } = self.edges[edge as usize];
+        let along = at(to) - at(from);
+        [along, along.cross(at(third) - at(from))].map(Vec3::normalize_or_zero)
     }
 
-    /// Returns the outward direction of a vertex and that of its first edge, with the vertices `at`
-    /// their positions; zero if it is flat.
+    /// Returns the directions of the first edge at a vertex.
     pub fn vertex_directions(&self, vertex: u32, at: &dyn Fn(u32) -> Vec3) -> [Vec3; 2] {
-        let (incident, mut outward) = (self.incident(vertex), Vec3::ZERO);
-        incident.iter().for_each(|[edge, _]| outward += self.edge_outward(*edge, at));
-        let along = at(incident[0][1]) - at(self.vertices[vertex as usize]);
-        [outward, along].map(|v| v.normalize_or_zero())
+        self.edge_directions(self.incident(vertex)[0][0], at)
     }
 
     /// Poses a vertex whose edges are posed, and returns its number in the mesh.

@@ -324,13 +324,12 @@ impl MovingSurface {
                     features.motions[*edge as usize].step = RigidStep::NONE;
                     continue;
                 }
-                let now = &features.edges[*edge as usize];
-                let outward = [sources.edge_outward(*edge, &before), now.outward];
-                let old = ends.map(before);
-                let along =
-                    [old[1] - old[0], now.ends[1] - now.ends[0]].map(Vec3::normalize_or_zero);
-                let middle = [(old[0] + old[1]) * 0.5, (now.ends[0] + now.ends[1]) * 0.5];
-                features.motions[*edge as usize].step = RigidStep::new(middle, outward, along);
+                let middle = [before(ends[0]) + before(ends[1]), at(ends[0]) + at(ends[1])];
+                features.motions[*edge as usize].step = RigidStep::new(
+                    middle.map(|sum| sum * 0.5),
+                    sources.edge_directions(*edge, &before),
+                    sources.edge_directions(*edge, &at),
+                );
             }
             let edge_count = features.edges.len();
             for vertex in &parts.vertices.list {
@@ -338,10 +337,11 @@ impl MovingSurface {
                 features.motions[edge_count + *vertex as usize].step = if length == 0.0 {
                     RigidStep::NONE
                 } else {
-                    let [outward, along] = sources.vertex_directions(*vertex, &before);
-                    let [outward_now, along_now] = sources.vertex_directions(*vertex, &at);
-                    let origins = [before(own), at(own)];
-                    RigidStep::new(origins, [outward, outward_now], [along, along_now])
+                    RigidStep::new(
+                        [before(own), at(own)],
+                        sources.vertex_directions(*vertex, &before),
+                        sources.vertex_directions(*vertex, &at),
+                    )
                 };
             }
         }

@@ -68,18 +68,13 @@ impl RigidStep {
     /// No motion.
     pub const NONE: Self = Self { origins: [Vec3::ZERO; 2], axes: None };
 
-    /// Returns the motion of a point with an outward direction and one along the surface, at the start
-    /// and at the end. It does not turn where these are no two directions.
-    pub fn new(origins: [Vec3; 2], outward: [Vec3; 2], along: [Vec3; 2]) -> Self {
-        let frame = |k: usize| {
-            let along = along[k] - outward[k] * outward[k].dot(along[k]);
-            let length = along.length();
-            let along = along * (1.0 / length);
-            let is_frame = length > MIN_LENGTH && outward[k].length_squared() > 0.5;
-            is_frame.then(|| [outward[k], along, outward[k].cross(along)])
-        };
-        let axes = (origins[0] != origins[1]).then(|| Some([frame(0)?, frame(1)?])).flatten();
-        Self { origins, axes }
+    /// Returns the motion of a point with two directions perpendicular to each other, `before` at the
+    /// start and `after` at the end. It does not turn where one of them is zero.
+    pub fn new(origins: [Vec3; 2], before: [Vec3; 2], after: [Vec3; 2]) -> Self {
+        let is_frame = |[u, v]: [Vec3; 2]| u != Vec3::ZERO && v != Vec3::ZERO;
+        let frame = |[u, v]: [Vec3; 2]| is_frame([u, v]).then(|| [u, v, u.cross(v)]);
+        let axes = if before == after { None } else { frame(before).zip(frame(after)) };
+        Self { origins, axes: axes.map(|(before, after)| [before, after]) }
     }
 
     /// Returns where the motion takes a point [m].
@@ -98,6 +93,3 @@ impl RigidStep {
         }
     }
 }
-
-/// Directions shorter than this give no frame.
-const MIN_LENGTH: f32 = 1.0e-3;
