@@ -356,6 +356,29 @@ fn contact_with_colliders_of_every_shape_allocates_nothing() {
 }
 
 #[test]
+fn contact_with_a_mesh_that_deforms_allocates_nothing() {
+    let mut cloth = Cloth::grid(&common::shapes::free_sheet(24, 1.0, 0.4)).unwrap();
+    let mesh = common::shapes::sphere_mesh(0.25, 8);
+    let body = cloth.add_collider(&mesh).unwrap();
+    let poses: Vec<Vec<Vec3>> = (0..240)
+        .map(|i| {
+            let wave = |x: &Vec3| 1.0 + 0.2 * (0.3 * i as f32 + 9.0 * x.y).sin();
+            mesh.positions.iter().map(|x| Vec3::new(x.x * wave(x), x.y, x.z * wave(x))).collect()
+        })
+        .collect();
+    let mut deform_and_step = |poses: &[Vec<Vec3>]| {
+        for pose in poses {
+            cloth.update_collider(body, pose).unwrap();
+            cloth.step(1);
+        }
+        assert!(cloth.collider_impulse(body).unwrap().linear.y < 0.0);
+    };
+    // The first contacts find how many pairs there are.
+    deform_and_step(&poses[..120]);
+    assert_eq!(allocation_count(|| deform_and_step(&poses[120..])), 0);
+}
+
+#[test]
 fn attachments_anchors_and_moving_frames_allocate_nothing() {
     let mut desc =
         GridDesc { columns: 16, rows: 16, pin_mode: PinMode::None, ..GridDesc::default() };

@@ -10,7 +10,8 @@
 //! [`CollisionShape::distance_bound`] never gives more than the true distance of a point outside.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::features::{BendHistogram, ShapeFeatures};
+use crate::geometry::bends::BendHistogram;
+use crate::geometry::features::ShapeFeatures;
 use crate::geometry::heightfield::Heightfield;
 use crate::geometry::polyhedron::Polyhedron;
 use crate::geometry::primitives::{Capsule, Cuboid, HalfSpace, PlacedSphere, Sphere};

@@ -13,7 +13,8 @@
 //! features (their `outward` points up); valleys are not.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::features::{BendHistogram, EdgeFeature, FeatureSides, Features};
+use crate::geometry::bends::BendHistogram;
+use crate::geometry::features::{EdgeFeature, FeatureSides, Features};
 use crate::math::{max, min};
 use core::ops::RangeInclusive;
 use glam::Vec3;

@@ -7,6 +7,7 @@
 //! Invariant: modules here use `math` and each other, and nothing above.
 
 pub(crate) mod aabb;
+pub(crate) mod bends;
 pub(crate) mod blade;
 pub(crate) mod bvh;
 pub(crate) mod closest_points;

@@ -6,10 +6,11 @@
 //! of flat places, which such a mesh lacks, are kept, without a bend.
 
 use crate::geometry::aabb::Aabb;
+use crate::geometry::bends::{BendHistogram, SurfaceBend};
 use crate::geometry::bvh::Bvh;
 use crate::geometry::features::{
-    BendHistogram, EdgeFeature, FeatureMotion, FeatureSides, Features, IncidentEdge, ShapeFeatures,
-    SurfaceBend, VertexFeature, weld_positions,
+    EdgeFeature, FeatureMotion, FeatureSides, Features, IncidentEdge, ShapeFeatures, VertexFeature,
+    weld_positions,
 };
 use crate::geometry::relative_motion::{PartMotion, RigidStep};
 use crate::math::sort::sort_groups;

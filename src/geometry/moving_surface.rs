@@ -13,8 +13,9 @@
 //! Invariant: contacts depend only on the vertices at both ends of the tick, never on earlier poses.
 
 use crate::geometry::aabb::Aabb;
+use crate::geometry::bends::SurfaceBend;
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::features::{Features, ShapeFeatures, SurfaceBend};
+use crate::geometry::features::{Features, ShapeFeatures};
 use crate::geometry::moving_features::FeatureSources;
 use crate::geometry::relative_motion::{PartMotion, RigidStep};
 use crate::geometry::triangle_surface::TriangleSurface;

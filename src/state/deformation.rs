@@ -12,8 +12,8 @@
 
 use crate::error::{Result, check, check_all_finite};
 use crate::geometry::aabb::Aabb;
+use crate::geometry::bends::SurfaceBend;
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::features::SurfaceBend;
 use crate::geometry::moving_surface::{MovingSurface, MovingVertices};
 use crate::math::hasher::StateHasher;
 use crate::math::max;

@@ -14,8 +14,8 @@
 //! Invariant: the margin depends only on the shape and on lengths at rest, so it is constant over
 //! time.
 
+use crate::geometry::bends::SurfaceBend;
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::features::SurfaceBend;
 use crate::state::colliders::ColliderBody;
 
 /// The fraction of the gap that edges and triangles keep. On a smooth shape a triangle sinks in by

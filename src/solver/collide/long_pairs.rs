@@ -8,7 +8,8 @@
 //! Invariant: every edge of the cloth is listed once per feature.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::features::{Feature, ShapeFeatures, SurfaceBend};
+use crate::geometry::bends::SurfaceBend;
+use crate::geometry::features::{Feature, ShapeFeatures};
 use crate::mesh::{Mesh, NONE};
 use crate::solver::collide::local_particles::LocalParticles;
 use crate::solver::collide::long_triangles::longest_edge_squared;

@@ -16,9 +16,10 @@
 //! is listed.
 
 use crate::geometry::aabb::Aabb;
+use crate::geometry::bends::SurfaceBend;
 use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::features::{EdgeFeature, Feature, Features, ShapeFeatures, SurfaceBend};
+use crate::geometry::features::{EdgeFeature, Feature, Features, ShapeFeatures};
 use crate::geometry::relative_motion::PointMotion;
 use crate::math::max;
 use crate::math::reserve::ReserveTotal;

@@ -11,8 +11,8 @@
 //! nothing outside the listed blocks can touch that collider.
 
 use crate::geometry::aabb::Aabb;
+use crate::geometry::bends::SurfaceBend;
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::features::SurfaceBend;
 use crate::math::columns::Columns;
 use crate::math::max;
 use crate::math::reserve::ReserveTotal;
