@@ -35,8 +35,11 @@ pub enum Map {
     Drag = 5,
 }
 
-/// Number of maps.
-const COUNT: usize = 6;
+impl Map {
+    /// All maps, in the order of their numbers.
+    pub const ALL: [Self; 6] =
+        [Self::Stretch, Self::Bend, Self::Tear, Self::Friction, Self::Thickness, Self::Drag];
+}
 
 /// Largest factor.
 const MAX_SCALE: f32 = 1000.0;
@@ -45,7 +48,7 @@ const MAX_SCALE: f32 = 1000.0;
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Maps {
     /// The factors of each particle, by map; empty if all are 1.
-    lists: [Vec<f32>; COUNT],
+    lists: [Vec<f32>; Map::ALL.len()],
     /// Counter of changes.
     #[serde(skip)]
     pub revision: u32,

@@ -6,9 +6,6 @@ use muslin::{
     Cloth, ColliderDesc, Error, EventKind, GridDesc, Map, Material, Preset, SelfCollision, Wind,
 };
 
-const MAPS: [Map; 6] =
-    [Map::Stretch, Map::Bend, Map::Tear, Map::Friction, Map::Thickness, Map::Drag];
-
 /// A grid and an irregular mesh that bend, collide, tear and blow.
 fn cloths(self_collision: SelfCollision) -> [Cloth; 2] {
     let mut grid = GridDesc { columns: 14, rows: 11, spacing: 0.1, ..GridDesc::default() };
@@ -36,7 +33,7 @@ fn uneven(count: u32) -> Vec<f32> {
 
 fn paint_all(cloth: &mut Cloth) {
     let scales = uneven(cloth.particle_count());
-    MAPS.into_iter().for_each(|map| cloth.set_map(map, Some(&scales)).unwrap());
+    Map::ALL.into_iter().for_each(|map| cloth.set_map(map, Some(&scales)).unwrap());
 }
 
 /// Tears an edge, cuts across the middle, and lets both halves move.
@@ -63,7 +60,7 @@ fn bad_scales_are_refused_and_name_the_index_and_the_rule() {
         let count = cloth.particle_count();
         paint_all(&mut cloth);
         let hash = cloth.state_hash();
-        for map in MAPS {
+        for map in Map::ALL {
             for bad in [-0.001, 1000.1, f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
                 let mut scales = uneven(count);
                 (scales[5], scales[7]) = (bad, f32::NAN);
@@ -93,7 +90,7 @@ fn bad_scales_are_refused_and_name_the_index_and_the_rule() {
 fn a_map_of_ones_changes_no_position() {
     for self_collision in [SelfCollision::None, SelfCollision::Particles, SelfCollision::Surface] {
         for plain in cloths(self_collision) {
-            for map in MAPS {
+            for map in Map::ALL {
                 let (mut plain, mut painted) = (plain.clone(), plain.clone());
                 let ones = vec![1.0; plain.particle_count() as usize];
                 painted.set_map(map, Some(&ones)).unwrap();
@@ -117,7 +114,7 @@ fn a_map_of_ones_changes_no_position() {
 #[test]
 fn each_map_changes_the_motion_and_taking_it_away_restores_the_bits() {
     for plain in cloths(SelfCollision::Surface) {
-        for map in MAPS {
+        for map in Map::ALL {
             let [mut painted, mut cleared, mut plain] = [(); 3].map(|()| {
                 let mut cloth = plain.clone();
                 let weak = Material { tear_stretch: 1.02, ..cloth.material().clone() };
@@ -258,7 +255,7 @@ fn maps_take_memory_only_while_they_are_set_and_wake_the_cloth() {
 fn extreme_scales_keep_positions_finite() {
     for self_collision in [SelfCollision::None, SelfCollision::Particles, SelfCollision::Surface] {
         for cloth in cloths(self_collision) {
-            for (map, odd, even) in MAPS
+            for (map, odd, even) in Map::ALL
                 .into_iter()
                 .flat_map(|map| [(map, 0.0, 1000.0), (map, 1.0e-38, 1.0), (map, 1000.0, 1000.0)])
             {
