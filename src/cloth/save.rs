@@ -29,7 +29,6 @@ use crate::mesh::seams::Seams;
 use crate::mesh::split_edge::CutSite;
 use crate::mesh::{NONE, validate};
 use crate::model::dynamic_links::LinkChanges;
-use crate::model::maps::Maps;
 use crate::model::material::Material;
 use crate::model::plate_elements::PerKind;
 use crate::model::tethers::TetherSet;
@@ -66,7 +65,8 @@ struct SaveData<'a> {
     desc: Cow<'a, ClothDesc>,
     settings: Cow<'a, Settings>,
     material: Cow<'a, Material>,
-    maps: Cow<'a, Maps>,
+    /// The maps that are set, and their scales.
+    maps: (u32, Vec<f32>),
     wind: Cow<'a, Wind>,
     triangles: Cow<'a, [[u32; 3]]>,
     sources: Cow<'a, [u32]>,
@@ -131,7 +131,7 @@ impl Cloth {
             desc: Cow::Borrowed(&self.desc),
             settings: Cow::Borrowed(&world.settings),
             material: Cow::Borrowed(&world.material),
-            maps: Cow::Borrowed(&world.maps),
+            maps: world.maps.saved(),
             wind: Cow::Borrowed(&world.wind),
             triangles: Cow::Borrowed(&world.mesh.triangles),
             sources: Cow::Borrowed(&world.mesh.source),
@@ -271,8 +271,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require(saved.mass_scales.are_valid(count))?;
     world.mass_scales = saved.mass_scales.into_owned();
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
-    require(saved.maps.are_valid(count))?;
-    world.maps = saved.maps.into_owned();
+    require(world.maps.restore(saved.maps, count))?;
     world.wind = saved.wind.into_owned();
     require((1..=Settings::MAX_SUBSTEPS).contains(&saved.substeps))?;
     world.substeps = saved.substeps;

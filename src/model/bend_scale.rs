@@ -66,6 +66,7 @@ impl<'a> BendScale<'a> {
     }
 
     /// Painted scale between some particles.
+    #[inline(never)]
     pub fn painted(&self, particles: &[u32]) -> f32 {
         self.painted.map_or(1.0, |scales| {
             let scale = min(mean(scales, particles), self.largest);
@@ -91,12 +92,21 @@ impl<'a> BendScale<'a> {
         if self.painted.is_none() {
             return;
         }
-        let (columns, [weft, warp, twist]) = (columns as u32, weight);
-        for (at, ((weft, warp), twist)) in (0..).zip(weft.iter_mut().zip(warp).zip(twist)) {
-            let scale = self.painted(&[at]);
-            (*weft, *warp) = (*weft * scale, *warp * scale);
-            if *twist > 0.0 {
-                *twist *= self.painted(&[at, at + 1, at + columns, at + columns + 1]);
+        let (below, [weft, warp, twist]) = (columns as u32, weight);
+        self.scale_elements(weft, &[0]);
+        self.scale_elements(warp, &[0]);
+        self.scale_elements(twist, &[0, 1, below, below + 1]);
+    }
+
+    /// Multiplies the stiffness of elements by the painted scale between the particles at `offsets`
+    /// from the element's own.
+    #[inline(never)]
+    fn scale_elements(&self, weight: &mut [f32], offsets: &[u32]) {
+        for (at, weight) in (0..).zip(weight) {
+            let mut corners = [at; 4];
+            corners.iter_mut().zip(offsets).for_each(|(corner, offset)| *corner += offset);
+            if *weight > 0.0 {
+                *weight *= self.painted(&corners[..offsets.len()]);
             }
         }
     }

@@ -28,6 +28,7 @@ const MIN_TIP_ANGLE: f32 = 5.235_988;
 
 /// The strain at which edges at a tip tear that tear at `usual_strain` elsewhere. `spacing` is the
 /// mesh size [m], `solver_residual` the strain that the solver may leave there.
+#[inline(never)]
 pub(crate) fn tear_strain(
     usual_strain: f32,
     material: &Material,

@@ -45,12 +45,11 @@ impl Map {
 const MAX_SCALE: f32 = 1000.0;
 
 /// The maps of a cloth.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Maps {
     /// The factors of each particle, by map; empty if all are 1.
     lists: [Vec<f32>; Map::ALL.len()],
     /// Counter of changes.
-    #[serde(skip)]
     pub revision: u32,
 }
 
@@ -73,11 +72,13 @@ impl Maps {
     }
 
     /// The mean factor of some particles; 1 if the map is not set.
+    #[inline(never)]
     pub fn mean(&self, map: Map, particles: &[u32]) -> f32 {
         self.get(map).map_or(1.0, |scales| mean(scales, particles))
     }
 
     /// The smallest and the largest factor of a map; 1 and 1 if it is not set.
+    #[inline(never)]
     pub fn range(&self, map: Map) -> [f32; 2] {
         let list = self.get(map).unwrap_or(&[1.0]);
         list.iter()
@@ -115,9 +116,25 @@ impl Maps {
         size_of::<f32>() * self.lists.iter().map(Vec::capacity).sum::<usize>()
     }
 
-    /// Returns whether the maps fit a cloth of `count` particles; for saved data.
-    pub fn are_valid(&self, count: usize) -> bool {
-        self.iter().all(|(_, list)| list.len() == count && list.iter().all(is_valid_map_scale))
+    /// The maps that are set, as bits, and their factors one after the other, for a save.
+    pub fn saved(&self) -> (u32, Vec<f32>) {
+        let (mut bits, mut all) = (0, Vec::new());
+        for (map, list) in self.iter() {
+            bits |= 1 << map;
+            all.extend_from_slice(list);
+        }
+        (bits, all)
+    }
+
+    /// Replaces the maps by saved ones. Returns false if they do not fit a cloth of `count` particles.
+    pub fn restore(&mut self, (bits, all): (u32, Vec<f32>), count: usize) -> bool {
+        let is_set = |map: &Map| bits >> *map as u32 & 1 == 1;
+        let mut lists = all.chunks_exact(count.max(1));
+        for map in Map::ALL.into_iter().filter(is_set) {
+            self.set(map, lists.next().unwrap_or_default(), count);
+        }
+        let fits = all.len() == count * bits.count_ones() as usize && bits < 1 << Map::ALL.len();
+        fits && all.iter().all(is_valid_map_scale)
     }
 
     fn lists_in_use(&mut self) -> impl Iterator<Item = &mut Vec<f32>> {
@@ -126,6 +143,7 @@ impl Maps {
 }
 
 /// The mean factor of some particles.
+#[inline(never)]
 pub(crate) fn mean(scales: &[f32], particles: &[u32]) -> f32 {
     let sum: f32 = particles.iter().map(|particle| scales[*particle as usize]).sum();
     sum / particles.len() as f32

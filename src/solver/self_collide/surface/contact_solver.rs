@@ -67,15 +67,18 @@ pub(crate) struct LayerFriction<'a> {
 }
 
 impl LayerFriction<'_> {
-    /// The coefficient at a contact: the mean scale of both closest points counts.
+    /// The coefficient at a contact.
     #[inline(always)]
     fn at(&self, contact: &Contact) -> f32 {
-        self.scales.map_or(self.coefficient, |scales| {
-            let each = contact.ids.iter().zip(contact.weights);
-            let sum: f32 = each.map(|(id, weight)| scales[*id as usize] * weight.abs()).sum();
-            self.coefficient * 0.5 * sum
-        })
+        self.scales.map_or(self.coefficient, |scales| self.coefficient * mean_at(contact, scales))
     }
+}
+
+/// The mean of the scales at both closest points.
+#[inline(never)]
+fn mean_at(contact: &Contact, scales: &[f32]) -> f32 {
+    let each = contact.ids.iter().zip(contact.weights);
+    0.5 * each.map(|(id, weight)| scales[*id as usize] * weight.abs()).sum::<f32>()
 }
 
 /// A contact that the solver works on in this substep.
