@@ -12,6 +12,7 @@ await init();
 const WELDED = {
   positions: [0, 0, 0, 1, 0, 0, 1, -1, 0, 0, -1, 0, 1, 0, 0, 2, 0, 0, 2, -1, 0, 1, -1, 0],
   indices: [0, 3, 1, 1, 3, 2, 4, 7, 5, 5, 7, 6],
+  weldDistance: 0,
 };
 
 test("a channel of floats or normalised integers has one number per particle", () => {

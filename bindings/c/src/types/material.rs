@@ -173,8 +173,15 @@ impl From<MuslinMaterial> for Material {
 
 /// Returns the map that a MUSLIN_MAP_ number names.
 pub fn map(number: u32) -> Result<Map> {
-    let map = Map::ALL.get(number as usize).copied();
-    map.ok_or_else(|| CallError::bad_value("map", "be a MUSLIN_MAP_ value"))
+    match number {
+        MUSLIN_MAP_STRETCH => Ok(Map::Stretch),
+        MUSLIN_MAP_BEND => Ok(Map::Bend),
+        MUSLIN_MAP_TEAR => Ok(Map::Tear),
+        MUSLIN_MAP_FRICTION => Ok(Map::Friction),
+        MUSLIN_MAP_THICKNESS => Ok(Map::Thickness),
+        MUSLIN_MAP_DRAG => Ok(Map::Drag),
+        _ => Err(CallError::bad_value("map", "be a MUSLIN_MAP_ value")),
+    }
 }
 
 /// Returns the fabric that a MUSLIN_PRESET_ number names.
