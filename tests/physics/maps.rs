@@ -111,7 +111,7 @@ fn a_painted_stiff_half_bends_less_and_a_painted_limp_half_hangs_down() {
         let bend = |line: &[Vec3]| slope(line, 24) - slope(line, 13);
         assert!(bend(&stiff) > 0.5 * bend(&plain), "the outer half bends as before");
         assert!(slope(&plain, 23) < 1.2, "{}", slope(&plain, 23));
-        assert!((16..25).all(|k| slope(&limp, k) > 1.5), "{:?}", limp);
+        assert!((16..25).all(|k| slope(&limp, k) > 1.5), "{limp:?}");
     }
 }
 
