@@ -75,6 +75,33 @@
 /** Flag nylon of 200 denier, 105 g/m^2. */
 #define MUSLIN_PRESET_FLAG_NYLON 5
 
+/**
+ * Painted stiffness against stretch and shear. Links without compliance (a stiffness of 0) stay
+ * rigid; at scale 0 other links do not resist.
+ */
+#define MUSLIN_MAP_STRETCH 0
+
+/**
+ * Painted bending rigidity; at scale 0 the cloth is limp. Does not act on a `bend_stiffness` from 1
+ * on.
+ */
+#define MUSLIN_MAP_BEND 1
+
+/**
+ * Painted strength: the strain at which an edge tears, `tear_stretch` - 1. At scale 0 an edge tears
+ * as soon as it is stretched at all; a large scale keeps it from tearing.
+ */
+#define MUSLIN_MAP_TEAR 2
+
+/** Painted coefficient of friction of contacts with colliders and of surface self-collision. */
+#define MUSLIN_MAP_FRICTION 3
+
+/** Painted distance from colliders and between layers in self-collision. */
+#define MUSLIN_MAP_THICKNESS 4
+
+/** Painted drag coefficient; lift stays as it is. */
+#define MUSLIN_MAP_DRAG 5
+
 /** Value of `self_collision`: parts of the cloth pass through each other. */
 #define MUSLIN_SELF_COLLISION_NONE 0
 
@@ -1438,6 +1465,27 @@ MuslinStatus muslin_cloth_set_mass_scales(MuslinCloth cloth,
                                           const uint32_t *particles,
                                           const float *scales,
                                           uint32_t count);
+
+/**
+ * Paints a property (MUSLIN_MAP_STRETCH, MUSLIN_MAP_BEND, MUSLIN_MAP_TEAR, MUSLIN_MAP_FRICTION,
+ * MUSLIN_MAP_THICKNESS or MUSLIN_MAP_DRAG): multiplies what the material says by one scale per
+ * particle, from 0 to 1000; 1 is as the material says. NULL takes the map away, whatever `count`.
+ *
+ * A link, a hinge or a triangle takes the mean of the scales at its corners; a contact interpolates
+ * them at its point, and two layers take the mean of both sides. Own values of a collider are
+ * scaled too.
+ *
+ * Maps stay when the material changes and when the cloth is reset. A particle that a tear splits
+ * off takes the scale of its source; one that a cut adds to an edge takes the scale between those of
+ * its ends. Scales take effect with the next tick. A map takes memory only while it is set.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE for any other `map`, if `count` is not the number of particles, or
+ * if a scale is not from 0 to 1000 (the message names its index)
+ */
+MuslinStatus muslin_cloth_set_map(MuslinCloth cloth,
+                                  uint32_t map,
+                                  const float *scales,
+                                  uint32_t count);
 
 /**
  * Places a particle at `position` [m] at once. Its velocity stays as it is. A pinned particle

@@ -360,6 +360,10 @@ class Cloth {
   Done set_mass_scales(const std::uint32_t *particles, const float *scales, std::uint32_t count) noexcept {
     return muslin_cloth_set_mass_scales(cloth_, particles, scales, count);
   }
+  /** `map` is a MUSLIN_MAP_ value; with `scales` null the map is taken away. */
+  Done set_map(std::uint32_t map, const float *scales, std::uint32_t count) noexcept {
+    return muslin_cloth_set_map(cloth_, map, scales, count);
+  }
   Result<MuslinAttachment> attach(const std::uint32_t *particles, std::uint32_t count,
                                   MuslinVec3 position, MuslinQuat rotation) noexcept {
     MuslinAttachment attachment{};

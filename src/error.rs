@@ -32,6 +32,15 @@ pub enum Error {
         /// The broken rule, which completes the sentence "`field[index]` must …".
         must: &'static str,
     },
+    /// A list does not have one entry per particle.
+    BadCount {
+        /// Name of the list.
+        field: &'static str,
+        /// Given number of entries.
+        count: u32,
+        /// Number of particles.
+        needed: u32,
+    },
     /// An index is not below the number of particles, vertices or points.
     BadIndex {
         /// Name of the field or argument.
@@ -94,6 +103,9 @@ impl fmt::Display for Error {
         match self {
             Self::BadValue { field, must } => write!(f, "`{field}` must {must}"),
             Self::BadEntry { field, index, must } => write!(f, "`{field}[{index}]` must {must}"),
+            Self::BadCount { field, count, needed } => {
+                write!(f, "`{field}` must have {needed} entries, one per particle, but has {count}")
+            }
             Self::BadIndex { field, index, count } => {
                 write!(f, "`{field}` must be below {count}, but is {index}")
             }

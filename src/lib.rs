@@ -57,7 +57,7 @@
 //! | task | types and calls |
 //! | --- | --- |
 //! | make a cloth | [`Cloth::grid`] with [`GridDesc`] and [`PinMode`]; [`Cloth::mesh`] with [`MeshDesc`], [`MeshReport`] |
-//! | choose how it moves | [`Settings`], [`SelfCollision`], [`Material`], [`Preset`], [`Wind`], [`WindModel`] |
+//! | choose how it moves | [`Settings`], [`SelfCollision`], [`Material`], [`Preset`], [`Map`], [`Wind`], [`WindModel`] |
 //! | run it | [`Cloth::advance`], [`Cloth::step`], [`Cloth::blend`] |
 //! | hold it | [`Cloth::pin`], [`Grab`], [`Attachment`], [`Cloth::set_max_distances`], [`Cloth::set_backstops`] |
 //! | let it collide | [`ColliderDesc`], [`Shape`], [`Collider`], [`Impulse`] |
@@ -103,6 +103,7 @@ pub use crate::cloth::write_vertices::IndexFormat;
 pub use crate::error::{Error, Result};
 pub use crate::mesh::report::MeshReport;
 pub use crate::model::links::LinkKind;
+pub use crate::model::maps::Map;
 pub use crate::model::material::{Material, Preset};
 pub use crate::solver::profile::Clock;
 pub use crate::solver::stage::Stage;

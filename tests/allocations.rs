@@ -2,8 +2,8 @@
 
 use muslin::glam::{Quat, Vec2, Vec3};
 use muslin::{
-    Attribute, Cloth, ColliderDesc, GridDesc, Material, MeshDesc, PinMode, SelfCollision, Shape,
-    Skin, Stream, VertexFormat, Wind, WriteDesc,
+    Attribute, Cloth, ColliderDesc, GridDesc, Map, Material, MeshDesc, PinMode, Preset,
+    SelfCollision, Shape, Skin, Stream, VertexFormat, Wind, WriteDesc,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -104,6 +104,36 @@ fn a_mesh_allocates_nothing_after_creation() {
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.2;
     assert_allocates_nothing(Cloth::mesh(&desc).unwrap(), 20);
+}
+
+#[test]
+fn painted_cloths_allocate_nothing_and_their_tears_extend_the_maps() {
+    for self_collision in [SelfCollision::None, SelfCollision::Particles] {
+        let mut grid = GridDesc { columns: 20, rows: 20, ..GridDesc::default() };
+        let mut mesh: MeshDesc = common::irregular_mesh();
+        for (material, settings) in
+            [(&mut grid.material, &mut grid.settings), (&mut mesh.material, &mut mesh.settings)]
+        {
+            (settings.tearing, settings.self_collision) = (true, self_collision);
+            *material = Material { tear_stretch: 1.2, ..Material::preset(Preset::Cotton) };
+        }
+        for (mut cloth, particle) in
+            [(Cloth::grid(&grid).unwrap(), 230), (Cloth::mesh(&mesh).unwrap(), 20)]
+        {
+            paint(&mut cloth);
+            assert_allocates_nothing(cloth, particle);
+        }
+    }
+    let mut cloth = standing_sheet(SelfCollision::Surface);
+    paint(&mut cloth);
+    assert_eq!(allocation_count(|| cloth.step(90)), 0);
+}
+
+/// Sets all maps to scales about 1.
+fn paint(cloth: &mut Cloth) {
+    let scale = |i: u32| 0.75 + (i % 5) as f32 * 0.125;
+    let scales: Vec<f32> = (0..cloth.particle_count()).map(scale).collect();
+    Map::ALL.into_iter().for_each(|map| cloth.set_map(map, Some(&scales)).unwrap());
 }
 
 #[test]

@@ -32,6 +32,7 @@ use crate::model::constraints::Constraints;
 use crate::model::folds::Folds;
 use crate::model::grid_cells::GridCells;
 use crate::model::hinges::Hinges;
+use crate::model::maps::Maps;
 use crate::model::material::Material;
 use crate::model::pin_order::PinOrder;
 use crate::model::plate_elements::PlateElements;
@@ -237,6 +238,7 @@ fn build_world(
         colliders: Arena::with_capacity(MAX_COLLIDERS),
         settings: settings.clone(),
         material: material.clone(),
+        maps: Maps::default(),
         wind: Wind::default(),
         time: 0.0,
         tick: 0,
@@ -285,7 +287,7 @@ fn build_world(
     world.label_pieces();
     world.rebuild_crack_tips();
     world.compute_masses();
-    world.constraints.update_compliances(material);
+    world.constraints.update_compliances(material, &world.maps);
     world.rebuild_tethers();
     world.reset_history();
     world
@@ -325,6 +327,7 @@ impl World {
         }
         self.particles.reserve(capacity);
         self.mass_scales.reserve(capacity);
+        self.maps.reserve(capacity);
         self.crack_tips.reserve_total(capacity);
         self.pins.reserve(capacity);
         self.events.reserve();

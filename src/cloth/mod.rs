@@ -23,6 +23,7 @@ mod cut;
 pub(crate) mod desc;
 mod grabs;
 mod interpolated_surface;
+mod maps;
 pub(crate) mod mass_properties;
 mod mass_scales;
 mod outputs;
@@ -232,7 +233,7 @@ impl Cloth {
     /// descriptor, time zero, all mass scales 1. Removes all grabs, attachments, anchors, creases
     /// and events.
     ///
-    /// Settings, material, wind and colliders stay as they are now; the impulses of colliders are
+    /// Settings, material, painted maps, wind and colliders stay as they are now; the impulses of colliders are
     /// zero again. Handles of grabs and attachments become stale; handles of colliders stay valid.
     pub fn reset(&mut self) {
         // Building succeeded for this descriptor before, so it succeeds again.
@@ -247,6 +248,8 @@ impl Cloth {
         fresh.settings = self.world.settings.clone();
         fresh.substeps = fresh.settings.substeps;
         fresh.material = self.world.material.clone();
+        core::mem::swap(&mut fresh.maps, &mut self.world.maps);
+        fresh.maps.truncate(fresh.particles.len());
         fresh.folds.reserve_hardening(&fresh.material);
         fresh.wind = self.world.wind.clone();
         fresh.profile.set_clock(self.world.profile.clock());
@@ -261,7 +264,7 @@ impl Cloth {
         self.world.reserve_contacts();
         with_float_env(|| {
             self.world.compute_masses();
-            self.world.constraints.update_compliances(&self.world.material);
+            self.world.constraints.update_compliances(&self.world.material, &self.world.maps);
             self.world.rebuild_tethers();
             self.world.reset_history();
             self.world.rebuild_particle_collision();

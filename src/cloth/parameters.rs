@@ -83,7 +83,7 @@ impl Cloth {
     /// Replaces the material; it takes effect with the next tick. Velocities stay as they are.
     ///
     /// A change wakes a sleeping cloth. A new density changes the mass of every particle; mass
-    /// scales ([`Cloth::set_mass_scales`]) still apply.
+    /// scales ([`Cloth::set_mass_scales`]) and painted maps ([`Cloth::set_map`]) still apply.
     ///
     /// # Errors
     /// [`Error::BadValue`](crate::Error::BadValue) names the field and its rule. The cloth is
@@ -99,7 +99,7 @@ impl Cloth {
         world.material = material;
         world.folds.reserve_hardening(&world.material);
         with_float_env(|| {
-            world.constraints.update_compliances(&world.material);
+            world.constraints.update_compliances(&world.material, &world.maps);
             if changes_density {
                 world.compute_masses();
             }

@@ -55,7 +55,7 @@ use std::borrow::Cow;
 /// Signature at the start of a save.
 const MAGIC: &[u8; 8] = b"MUSLINSV";
 /// Version of the format; a change of `SaveData` raises it.
-const FORMAT: u32 = 12;
+const FORMAT: u32 = 13;
 /// Bytes before the body.
 const HEADER: usize = 20;
 
@@ -65,6 +65,8 @@ struct SaveData<'a> {
     desc: Cow<'a, ClothDesc>,
     settings: Cow<'a, Settings>,
     material: Cow<'a, Material>,
+    /// The maps that are set, and their scales.
+    maps: (u32, Vec<f32>),
     wind: Cow<'a, Wind>,
     triangles: Cow<'a, [[u32; 3]]>,
     sources: Cow<'a, [u32]>,
@@ -129,6 +131,7 @@ impl Cloth {
             desc: Cow::Borrowed(&self.desc),
             settings: Cow::Borrowed(&world.settings),
             material: Cow::Borrowed(&world.material),
+            maps: world.maps.saved(),
             wind: Cow::Borrowed(&world.wind),
             triangles: Cow::Borrowed(&world.mesh.triangles),
             sources: Cow::Borrowed(&world.mesh.source),
@@ -268,14 +271,16 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require(saved.mass_scales.are_valid(count))?;
     world.mass_scales = saved.mass_scales.into_owned();
     (world.settings, world.material) = (saved.settings.into_owned(), saved.material.into_owned());
+    require(world.maps.restore(saved.maps, count))?;
     world.wind = saved.wind.into_owned();
     require((1..=Settings::MAX_SUBSTEPS).contains(&saved.substeps))?;
     world.substeps = saved.substeps;
     world.check_self_distance(&world.settings)?;
     world.reserve(capacity);
-    require(world.constraints.apply_changes(&world.mesh, &saved.links, &world.material))?;
-    world.constraints.update_compliances(&world.material);
+    let material = (&world.material, &world.maps);
+    require(world.constraints.apply_changes(&world.mesh, &saved.links, material))?;
     (0..world.rest.len() as u32).for_each(|rest| world.refresh_constraints_at(rest));
+    world.constraints.update_compliances(&world.material, &world.maps);
     require(world.restore_folds(saved.folds) && world.restore_hardening(saved.hardening))?;
     world.reserve_for_tears();
     world.rebuild_irregular_lists();

@@ -15,7 +15,7 @@ impl Cloth {
     /// every platform and for any number of threads.
     ///
     /// The hash covers positions, history, velocities, masses, triangles, folds with their
-    /// accumulated yield, pins, attachments, anchors, grabs, colliders with their impulses,
+    /// accumulated yield, painted maps, pins, attachments, anchors, grabs, colliders with their impulses,
     /// tethers, warm-start impulses of self-collision, the flag for unresolved intersections,
     /// origin, substeps that the last tick added, and time.
     pub fn state_hash(&self) -> u64 {
@@ -38,6 +38,10 @@ impl Cloth {
             world.folds.angle.iter().for_each(|angle| hasher.write_f32s(angle));
         }
         hasher.write_f32s(world.folds.hardening.saved());
+        for (map, scales) in world.maps.iter() {
+            hasher.write_u32(map);
+            hasher.write_f32s(scales);
+        }
         for pin in world.pins.iter() {
             hasher.write_u32(pin.particle);
             hasher.write_f32s(&pin.from.to_array());

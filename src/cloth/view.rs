@@ -269,6 +269,7 @@ impl Cloth {
             + world.vertex_capacity() * vertex
             + world.triangle_capacity * triangle
             + world.constraints.bytes()
+            + world.maps.bytes()
             + world.grid_cells.as_ref().map_or(0, GridCells::bytes)
             + world.plate_elements.as_ref().map_or(0, |plates| plates.bytes())
             + world.tethers.bytes()

@@ -179,7 +179,8 @@ impl BendElements {
     }
 
     /// Computes the stiffness of all elements from the active hinges (`is_active`) and the held
-    /// particles (`is_held`). `stiffness_scale` is the remaining stiffness of a triangle, 0 to 1.
+    /// particles (`is_held`). `stiffness_scale` is the factor on the stiffness of an element with
+    /// these corners.
     ///
     /// Where a mesh continues into a clamp, only the half of a hinge outside the clamp bends, and
     /// takes the whole angle.
@@ -188,7 +189,7 @@ impl BendElements {
         hinges: &[Hinge],
         is_active: impl Fn(usize) -> bool,
         is_held: impl Fn(u32) -> bool,
-        stiffness_scale: impl Fn(usize) -> f32,
+        stiffness_scale: impl Fn(usize, [u32; 3]) -> f32,
         elements: &mut Vec<TriangleStiffness>,
     ) {
         elements.clear();
@@ -207,8 +208,10 @@ impl BendElements {
                     };
                 }
             }
-            let (mut element, stiffness_scale) =
-                (triangle_element.element(multipliers), stiffness_scale(at));
+            let (mut element, stiffness_scale) = (
+                triangle_element.element(multipliers),
+                stiffness_scale(at, triangle_element.corners(hinges)),
+            );
             let terms = element.own.iter_mut().chain(&mut element.between);
             terms.for_each(|term| *term *= stiffness_scale);
             element
@@ -222,6 +225,13 @@ impl BendElements {
 }
 
 impl BendTriangle {
+    /// The particles at its corners.
+    fn corners(&self, hinges: &[Hinge]) -> [u32; 3] {
+        let slot = self.hinges.iter().position(|hinge| *hinge != NONE).unwrap_or(0);
+        let [p, q, first, second] = hinges[self.hinges[slot] as usize].particles;
+        [p, q, if self.sides[slot] == 0 { first } else { second }]
+    }
+
     /// Its stiffness, with the bend of each hinge multiplied by `multipliers`; hinges with 0 are
     /// absent.
     fn element(&self, multipliers: [f32; 3]) -> TriangleStiffness {

@@ -23,6 +23,7 @@ use crate::model::coloring::Coloring;
 use crate::model::grid_rows::GridRows;
 use crate::model::hinges::Hinges;
 use crate::model::links::{LinkBatch, LinkKind, LinkSpec, LinkSupport, Links, ThreadDirection};
+use crate::model::maps::Maps;
 use crate::model::material::Material;
 use crate::model::sparse_links::SparseLinks;
 use core::ops::Range;
@@ -302,10 +303,10 @@ impl Constraints {
             + size_of::<[u32; 8]>() * self.dynamic_next.capacity()
     }
 
-    /// Computes the compliances of all links from the material.
-    pub fn update_compliances(&mut self, material: &Material) {
+    /// Computes the compliances of all links from the material and the painted stretch.
+    pub fn update_compliances(&mut self, material: &Material, maps: &Maps) {
         for links in [&mut self.links, &mut self.dynamic] {
-            (0..links.len()).for_each(|link| links.update_compliance(link, material));
+            (0..links.len()).for_each(|link| links.update_compliance(link, material, maps));
         }
     }
 

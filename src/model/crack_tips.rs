@@ -26,10 +26,15 @@ const MIN_STRAIN_RATIO: f32 = 0.2;
 /// corner.
 const MIN_TIP_ANGLE: f32 = 5.235_988;
 
-/// The strain at which edges at a tip tear. `spacing` is the mesh size [m], `solver_residual` the
-/// strain that the solver may leave there.
-pub(crate) fn tear_strain(material: &Material, spacing: f32, solver_residual: f32) -> f32 {
-    let usual_strain = material.tear_stretch - 1.0;
+/// The strain at which edges at a tip tear that tear at `usual_strain` elsewhere. `spacing` is the
+/// mesh size [m], `solver_residual` the strain that the solver may leave there.
+#[inline(never)]
+pub(crate) fn tear_strain(
+    usual_strain: f32,
+    material: &Material,
+    spacing: f32,
+    solver_residual: f32,
+) -> f32 {
     let at_tip = usual_strain * tip_strain_ratio(material, spacing);
     let min_strain = if solver_residual < usual_strain { solver_residual } else { usual_strain };
     if at_tip < min_strain { min_strain } else { at_tip }

@@ -20,6 +20,7 @@ use crate::mesh::{Corner, Mesh, NONE, next_corner, prev_corner};
 use crate::model::constraints::{Constraints, bend_link_stiffness, edge_of};
 use crate::model::dynamic_links::DYNAMIC;
 use crate::model::links::{LinkKind, LinkSpec, LinkSupport, ThreadDirection};
+use crate::model::maps::Maps;
 use crate::model::material::Material;
 use glam::Vec3;
 
@@ -29,13 +30,14 @@ pub(crate) type LinksOfTriangle = Vec<Vec<u32>>;
 /// Minimum cosine between an edge and a thread direction for a stretch link: 22.5°.
 const MIN_ALIGNMENT: f32 = 0.923_879_5;
 
-/// The cloth at rest, and its material.
+/// The cloth at rest, its material and maps.
 #[derive(Clone, Copy)]
 pub(crate) struct RestShape<'a> {
     pub mesh: &'a Mesh,
     /// Rest position of each site [m].
     pub rest: &'a [Vec3],
     pub material: &'a Material,
+    pub maps: &'a Maps,
 }
 
 impl RestShape<'_> {
@@ -309,7 +311,8 @@ impl Constraints {
         rest: f32,
         links_of: &mut LinksOfTriangle,
     ) {
-        let number = self.push_dynamic(rest_shape.mesh, spec, rest, rest_shape.material);
+        let number =
+            self.push_dynamic(rest_shape.mesh, spec, rest, (rest_shape.material, rest_shape.maps));
         register(links_of, number, &spec);
     }
 

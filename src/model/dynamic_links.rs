@@ -6,7 +6,7 @@
 //!
 //! A link number is the index in its list, plus `DYNAMIC` for a dynamic link.
 //!
-//! Reads `Mesh` and `Material`; writes `Constraints`.
+//! Reads `Mesh`, `Material` and `Maps`; writes `Constraints`.
 //!
 //! Invariant: after `update_site` for every changed site and one `rebuild_sparse`, all links agree
 //! with the mesh.
@@ -15,6 +15,7 @@ use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::constraints::{Constraints, edge_of};
 use crate::model::links::{LinkSpec, LinkSupport, Links};
+use crate::model::maps::Maps;
 use crate::model::material::Material;
 use glam::Vec3;
 
@@ -66,11 +67,11 @@ impl Constraints {
         mesh: &Mesh,
         spec: LinkSpec,
         rest: f32,
-        material: &Material,
+        (material, maps): (&Material, &Maps),
     ) -> u32 {
         let new = self.dynamic.len();
         self.dynamic.push(mesh, spec, rest);
-        self.dynamic.update_compliance(new, material);
+        self.dynamic.update_compliance(new, material, maps);
         if spec.support == LinkSupport::Removed {
             self.dynamic.active[new] = false;
         }
@@ -102,7 +103,12 @@ impl Constraints {
     /// the stiffness.
     ///
     /// The caller has reserved capacity.
-    pub fn open_edge(&mut self, mesh: &Mesh, sides: [Corner; 2], material: &Material) {
+    pub fn open_edge(
+        &mut self,
+        mesh: &Mesh,
+        sides: [Corner; 2],
+        (material, maps): (&Material, &Maps),
+    ) {
         let of = |edge: Corner| self.link_of_edge[edge as usize];
         let (number, bare) =
             if of(sides[0]) == NONE { (of(sides[1]), sides[0]) } else { (of(sides[0]), sides[1]) };
@@ -112,10 +118,10 @@ impl Constraints {
         }
         let (links, at) = self.link_mut(number);
         links.spec[at].stiffness_scale *= 0.5;
-        links.update_compliance(at, material);
+        links.update_compliance(at, material, maps);
         let spec = LinkSpec { ends: [bare, next_corner(bare)], ..links.spec[at] };
         let rest = links.rest[at];
-        self.push_dynamic(mesh, spec, rest, material);
+        self.push_dynamic(mesh, spec, rest, (material, maps));
     }
 
     /// Updates every link that depends on a site after its vertices changed.
@@ -199,7 +205,7 @@ impl Constraints {
         &mut self,
         mesh: &Mesh,
         link_changes: &LinkChanges,
-        material: &Material,
+        material: (&Material, &Maps),
     ) -> bool {
         let corners = 3 * mesh.triangles.len() as u32;
         let fits = |spec: &LinkSpec| {

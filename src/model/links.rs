@@ -7,13 +7,15 @@
 //! corners of triangles, not by particles: when a vertex splits, the link follows the triangles
 //! that it lies on, and is deactivated when they have separated.
 //!
-//! Reads `Mesh` and `Material`; writes columns, one entry per link.
+//! Reads `Mesh`, `Material` and `Maps`; writes columns, one entry per link.
 //!
 //! Invariant: `spec` alone determines `a`, `b` and `active` on a given mesh.
 
 use crate::math::column::Column;
+use crate::math::max;
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::link_ends::LinkEnds;
+use crate::model::maps::{Map, Maps};
 use crate::model::material::Material;
 use serde::{Deserialize, Serialize};
 
@@ -151,10 +153,15 @@ impl Links {
         };
     }
 
-    /// Computes the compliance of a link from the material.
-    pub fn update_compliance(&mut self, link: usize, material: &Material) {
+    /// Computes the compliance of a link from the material and its painted stretch.
+    pub fn update_compliance(&mut self, link: usize, material: &Material, maps: &Maps) {
         let spec = &self.spec[link];
-        self.compliance[link] = compliance(spec, material);
+        let compliance = compliance(spec, material);
+        self.compliance[link] = if spec.kind == LinkKind::Bend || compliance == 0.0 {
+            compliance
+        } else {
+            painted_compliance(compliance, maps.mean(Map::Stretch, &[self.a[link], self.b[link]]))
+        };
     }
 }
 
@@ -164,6 +171,16 @@ pub(crate) struct LinkBatch {
     pub kind: LinkKind,
     pub first: usize,
     pub count: usize,
+}
+
+/// Largest compliance of a link that a map softens [m/N]: it does not resist, and its products stay
+/// finite.
+const MAX_PAINTED_COMPLIANCE: f32 = 1.0e12;
+
+/// The compliance [m/N] of a link whose stiffness is multiplied by `scale`.
+fn painted_compliance(compliance: f32, scale: f32) -> f32 {
+    let painted = compliance / scale;
+    if painted > MAX_PAINTED_COMPLIANCE { max(compliance, MAX_PAINTED_COMPLIANCE) } else { painted }
 }
 
 /// Inverse spring constant [m/N]: 1 / (stiffness of the material · `stiffness_scale`), or 0 for a

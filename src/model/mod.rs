@@ -14,6 +14,7 @@
 //! | `hinge`, `hinges`, `bend_elements` | bending of other meshes |
 
 pub(crate) mod bend_elements;
+pub(crate) mod bend_scale;
 pub(crate) mod chain_blocks;
 pub(crate) mod chains;
 pub(crate) mod coloring;
@@ -32,6 +33,7 @@ pub(crate) mod irregular_bend;
 pub(crate) mod link_ends;
 pub(crate) mod link_set;
 pub(crate) mod links;
+pub(crate) mod maps;
 pub(crate) mod material;
 pub(crate) mod pin_order;
 pub(crate) mod plate_elements;

@@ -27,6 +27,7 @@ use crate::mesh::{Corner, Mesh, triangle_of};
 use crate::model::constraints::Constraints;
 use crate::model::folds::Folds;
 use crate::model::grid_cells::GridCells;
+use crate::model::maps::Maps;
 use crate::model::material::Material;
 use crate::model::pin_order::PinOrder;
 use crate::model::plate_elements::PlateElements;
@@ -148,6 +149,8 @@ pub(crate) struct World {
     pub settings: Settings,
     /// Parameters of the fabric. Written by the host.
     pub material: Material,
+    /// Painted scales of the material. Written by the host; tears and cuts append entries.
+    pub maps: Maps,
     /// Parameters of the air. Written by the host.
     pub wind: Wind,
     /// Time since creation or reset [s]. `pipeline` advances it.

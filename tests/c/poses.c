@@ -151,6 +151,33 @@ static void a_mesh_reaches_new_vertices(void) {
   DONE(muslin_cloth_remove_collider(cloth, body));
 }
 
+static void a_painted_map_scales_the_drag_until_it_is_taken_away(void) {
+  static const uint32_t maps[] = {MUSLIN_MAP_STRETCH,  MUSLIN_MAP_BEND,      MUSLIN_MAP_TEAR,
+                                  MUSLIN_MAP_FRICTION, MUSLIN_MAP_THICKNESS, MUSLIN_MAP_DRAG};
+  MuslinWind wind;
+  muslin_wind_init(&wind);
+  wind.velocity.z = 2;
+  DONE(muslin_cloth_set_wind(cloth, &wind));
+  float scales[48], pushed[2] = {0, 0};
+  for (uint32_t i = 0; i < 48; i++) scales[i] = i % 8 < 4 ? 0.25f : 1;
+  DONE(muslin_cloth_reset(cloth));
+  const uint64_t before = hash_of(cloth);
+  for (int i = 0; i < 6; i++) {
+    DONE(muslin_cloth_set_map(cloth, maps[i], scales, 48));
+    CHECK(hash_of(cloth) != before);
+    if (maps[i] == MUSLIN_MAP_DRAG) break;
+    DONE(muslin_cloth_set_map(cloth, maps[i], NULL, 7));
+    CHECK(hash_of(cloth) == before);
+  }
+  DONE(muslin_cloth_unpin_all(cloth));
+  DONE(muslin_cloth_step(cloth, 1));
+  float v[3 * 48];
+  DONE(muslin_cloth_get_velocities(cloth, 0, 48, v, 0));
+  for (uint32_t i = 0; i < 48; i++) pushed[i % 8 < 4] += v[3 * i + 2];
+  CHECK(pushed[0] > 0.01f && pushed[1] < 0.5f * pushed[0]);
+  DONE(muslin_cloth_set_map(cloth, MUSLIN_MAP_DRAG, NULL, 0));
+}
+
 int main(void) {
   MuslinGridDesc desc;
   muslin_grid_desc_init(&desc);
@@ -163,6 +190,7 @@ int main(void) {
   TEST(cheap_questions_have_the_answers_of_the_statistics);
   TEST(a_collider_is_where_its_last_tick_took_it);
   TEST(a_mesh_reaches_new_vertices);
+  TEST(a_painted_map_scales_the_drag_until_it_is_taken_away);
   DONE(muslin_cloth_destroy(cloth));
   return failures != 0;
 }

@@ -357,6 +357,9 @@ static void attachments_and_anchors_are_refused_by_argument(void) {
   REFUSED(muslin_cloth_set_mass_scales(cloth, &last, &none, 1), BAD_VALUE, "`scales`");
   REFUSED(muslin_cloth_set_mass_scales(cloth, &last, NULL, 1), BAD_VALUE, "`scales`");
   REFUSED(muslin_cloth_set_mass_scales(cloth, &beyond, &one, 1), BAD_INDEX, "`particles`");
+  REFUSED(muslin_cloth_set_map(cloth, MUSLIN_MAP_TEAR, &one, 1), BAD_VALUE,
+          "`count` must be 400, the number of particles, but is 1");
+  REFUSED(muslin_cloth_set_map(cloth, 99, NULL, 0), BAD_VALUE, "`map` must be a MUSLIN_MAP_ value");
   REFUSED(muslin_cloth_set_max_distances(cloth, &last, &below, 1), BAD_VALUE, "`distances`");
   REFUSED(muslin_cloth_set_max_distances(cloth, &last, NULL, 1), BAD_VALUE, "`distances`");
   REFUSED(muslin_cloth_set_max_distances(cloth, &beyond, &one, 1), BAD_INDEX, "`particles`");

@@ -162,6 +162,12 @@ static void parameters_time_and_particles(void) {
   ROW(muslin_cloth_set_mass_scales, particles, INDEX, "`particles`", (cloth, &beyond, &number, 1));
   ROW(muslin_cloth_set_mass_scales, scales, VALUE, "`scales`", (cloth, &first, &not_a_number, 1));
   ROW(muslin_cloth_set_mass_scales, count, VALUE, "`count`", (cloth, many, (const float *)many, 401));
+  static float scales[400];
+  scales[17] = NAN;
+  OF_NONE(muslin_cloth_set_map, (none, MUSLIN_MAP_TEAR, scales, 400));
+  ROW(muslin_cloth_set_map, map, VALUE, "`map`", (cloth, 6, scales, 400));
+  ROW(muslin_cloth_set_map, scales, VALUE, "`scales[17]`", (cloth, MUSLIN_MAP_DRAG, scales, 400));
+  ROW(muslin_cloth_set_map, count, VALUE, "`count` must be 400", (cloth, MUSLIN_MAP_DRAG, scales, 401));
   OF_NONE(muslin_cloth_set_position, (none, 0, zero));
   ROW(muslin_cloth_set_position, particle, INDEX, "`particle`", (cloth, 400, zero));
   ROW(muslin_cloth_set_position, position, VALUE, "`position`", (cloth, 0, not_finite));

@@ -33,6 +33,10 @@ void worn(muslin::Cloth &cloth) {
   const float scale = 3, distance = 0.2f, behind = 0, radius = 1;
   const MuslinVec3 anchor{1, -1, 0}, normal{0, 0, 2};
   cloth.set_mass_scales(last, &scale, 1).value();
+  const std::vector<float> painted(400, 2.0f);
+  cloth.set_map(MUSLIN_MAP_BEND, painted.data(), 400).value();
+  CHECK(cloth.set_map(MUSLIN_MAP_BEND, painted.data(), 399).status() == MUSLIN_STATUS_BAD_VALUE);
+  cloth.set_map(MUSLIN_MAP_BEND, nullptr, 0).value();
   cloth.set_max_distances(last, &distance, 1).value();
   cloth.set_backstops(last, &behind, &radius, 1).value();
   cloth.set_anchors(last, &anchor, &normal, 0, 1).value();

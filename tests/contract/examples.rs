@@ -6,6 +6,8 @@ mod collide;
 mod garment;
 #[path = "../../examples/hang.rs"]
 mod hang;
+#[path = "../../examples/paint.rs"]
+mod paint;
 #[path = "../../examples/tear.rs"]
 mod tear;
 
@@ -27,4 +29,9 @@ fn the_example_collide_runs() {
 #[test]
 fn the_example_garment_runs() {
     garment::main().unwrap();
+}
+
+#[test]
+fn the_example_paint_runs() {
+    paint::main().unwrap();
 }

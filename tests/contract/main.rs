@@ -9,6 +9,7 @@ mod architecture;
 mod examples;
 mod extreme_input;
 mod fuzz_regressions;
+mod maps;
 mod pins;
 mod poses;
 mod refusals;

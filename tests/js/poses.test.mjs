@@ -128,3 +128,25 @@ test("a collider is where its last tick took it", () => {
   ball.remove();
   assert.throws(() => ball.pose, /`collider` must be a live collider/);
 });
+
+test("a painted map scales what the material says until it is taken away", () => {
+  const cloth = flag();
+  const scales = Array.from({ length: 48 }, (_, i) => (i % 8 < 4 ? 0.25 : 1));
+  for (const map of ["stretch", "bend", "tear", "friction", "thickness", "drag"]) {
+    const before = cloth.stateHash();
+    cloth.setMap(map, new Float32Array(scales));
+    assert.notEqual(cloth.stateHash(), before, map);
+    cloth.setMap(map, null);
+    assert.equal(cloth.stateHash(), before, map);
+  }
+  assert.throws(() => cloth.setMap("tear", scales.with(17, -1)), /`scales\[17\]` must be from 0 to 1000/);
+  assert.throws(() => cloth.setMap("tear", [1, 1]), /`scales` must have 48 entries, one per particle, but has 2/);
+  cloth.reset();
+  cloth.unpinAll();
+  cloth.setMap("drag", scales);
+  cloth.step(1);
+  const pushed = [0, 0];
+  cloth.velocities.forEach((v, i) => (pushed[Math.floor(i / 3) % 8 < 4 ? 0 : 1] += i % 3 === 2 ? v : 0));
+  assert.ok(pushed[1] > 0.01 && pushed[0] < 0.5 * pushed[1], `${pushed}`);
+  assert.equal(Cloth.restore(cloth.save()).stateHash(), cloth.stateHash());
+});

@@ -191,6 +191,8 @@ refuses("particles", NOT_PARTICLE_LISTS, (value, { cloth }) => cloth.setMassScal
 refuses("scales", [...NOT_LISTS, undefined, [1], [1, 0], [1, NaN]], (value, { cloth }) =>
   cloth.setMassScales(PAIR, value),
 );
+refuses("map", ["colour", "", 0, null, undefined], (value, { cloth }) => cloth.setMap(value, null));
+refuses("scales", ["x", 3, undefined, [], [1]], (value, { cloth }) => cloth.setMap("tear", value));
 refuses("distances", [...NOT_LISTS, undefined, [1], [1, -1], [1, NaN]], (value, { cloth }) =>
   cloth.setMaxDistances(PAIR, value),
 );

@@ -143,6 +143,8 @@ cloth.setMaxDistances(new Uint32Array([4]), [0.1]);
 cloth.setBackstops([4], [0], new Float32Array([1]));
 cloth.setAnchors([4], [0, 0, 0], [0, 0, 1]);
 cloth.setMassScales([4], [2]);
+cloth.setMap("tear", new Float32Array(1600));
+cloth.setMap("bend", null);
 cloth.setFrame([0, 0, 0]);
 cloth.teleport([1, 0, 0], [0, 0, 0, 1]);
 cloth.moveFrame([1, 0, 0]);

@@ -13,6 +13,7 @@ mod far_from_zero;
 mod fold_hardening;
 mod frame_poses;
 mod frame_poses_far_away;
+mod maps;
 mod masses;
 mod material_laws;
 mod momentum;

@@ -118,9 +118,10 @@ impl CallError {
 impl From<Error> for CallError {
     fn from(error: Error) -> Self {
         let status = match error {
-            Error::BadValue { .. } | Error::BadEntry { .. } | Error::BadStream { .. } => {
-                MuslinStatus::BadValue
-            }
+            Error::BadValue { .. }
+            | Error::BadEntry { .. }
+            | Error::BadCount { .. }
+            | Error::BadStream { .. } => MuslinStatus::BadValue,
             Error::SmallStream { .. } => MuslinStatus::BufferTooSmall,
             Error::BadIndex { .. } => MuslinStatus::BadIndex,
             Error::BadHandle { .. } => MuslinStatus::BadHandle,

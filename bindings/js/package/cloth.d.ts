@@ -4,6 +4,7 @@ import type { QuatLike, Vec3, Vec3Like } from "./check.js";
 import type {
   ColliderDesc,
   GridDesc,
+  MapName,
   Material,
   MaterialLike,
   MeshDesc,
@@ -355,6 +356,23 @@ export class Cloth {
   setMassScales(
     particles: Uint32Array | Uint16Array | readonly number[],
     scales: Float32Array | Float64Array | readonly number[],
+  ): void;
+  /**
+   * Paints a property: multiplies what the material says by one scale per particle, 0 to 1000; 1 is
+   * as the material says. `null` takes the map away.
+   *
+   * A link, a hinge or a triangle takes the mean of the scales at its corners; a contact interpolates
+   * them at its point, and two layers take the mean of both sides. Own values of a collider are
+   * scaled too. Maps stay when the material changes and when the cloth is reset. A particle that a
+   * tear splits off takes the scale of its source; one that a cut adds to an edge takes the scale
+   * between those of its ends.
+   *
+   * @throws if `map` is not a name of a map, if there is not one scale per particle, or if one is out
+   * of range
+   */
+  setMap(
+    map: MapName,
+    scales: Float32Array | Float64Array | readonly number[] | null,
   ): void;
 
   // Pins

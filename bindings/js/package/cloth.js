@@ -6,6 +6,7 @@ import {
   check,
   checkKeys,
   toBoolean,
+  toChoiceIndex,
   toFloat32Array,
   toNumber,
   toUint32,
@@ -34,6 +35,9 @@ const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
 const MESH_LISTS = ["positions", "indices", "uvs", "pinned"];
 const COLLIDER_KEYS = [...Object.keys(fields.COLLIDER), "positions", "indices", "heights"];
 const MESH_KEYS = [...MESH_LISTS, ...Object.keys(fields.MESH), "material", "settings"];
+
+/** The painted maps, in the order of their numbers. */
+const MAPS = ["stretch", "bend", "tear", "friction", "thickness", "drag"];
 
 /** No rotation. */
 const IDENTITY = [0, 0, 0, 1];
@@ -348,6 +352,12 @@ export class Cloth {
 
   setMassScales(particles, scales) {
     rawOf(this).set_mass_scales(toUint32Array(particles, "particles"), toFloat32Array(scales, "scales", 1));
+  }
+
+  setMap(map, scales) {
+    const live = rawOf(this);
+    const number = toChoiceIndex(map, "map", MAPS);
+    live.set_map(number, scales === null ? undefined : toFloat32Array(scales, "scales", 1));
   }
 
   // Attachments, anchors, frame

@@ -250,6 +250,21 @@ export interface Material {
 export type Preset = "silk" | "cotton" | "denim" | "leather" | "paper" | "flag-nylon";
 
 /**
+ * A property that `setMap` paints:
+ *
+ * - "stretch": stiffness against stretch and shear. Links without compliance (a stiffness of 0) stay
+ *   rigid; at scale 0 other links do not resist.
+ * - "bend": bending rigidity; at scale 0 the cloth is limp. Does not act on a `bendStiffness` from 1
+ *   on.
+ * - "tear": strength, the strain at which an edge tears (`tearStretch` - 1). At scale 0 an edge tears
+ *   as soon as it is stretched at all; a large scale keeps it from tearing.
+ * - "friction": coefficient of friction of contacts with colliders and of surface self-collision.
+ * - "thickness": distance from colliders and between layers in self-collision.
+ * - "drag": drag coefficient; lift stays as it is.
+ */
+export type MapName = "stretch" | "bend" | "tear" | "friction" | "thickness" | "drag";
+
+/**
  * A material as an argument: the name of a preset, or the fields that change. The other fields come
  * from `preset` if it is given, otherwise from the current (or default) material.
  */

@@ -1,10 +1,10 @@
-//! Position, velocity and mass of particles, one by one or in bulk.
+//! Position, velocity, mass and painted maps of particles, one by one or in bulk.
 
 use crate::RawCloth;
 use crate::error::{Result, to_js_error};
 use crate::packing::{self, Writer};
 use glam::Vec3;
-use muslin::Error;
+use muslin::{Error, Map};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
@@ -75,6 +75,11 @@ impl RawCloth {
     /// Sets factors on the masses of particles, one for each.
     pub fn set_mass_scales(&mut self, particles: &[u32], scales: &[f32]) -> Result<()> {
         self.cloth.set_mass_scales(particles, scales).map_err(to_js_error)
+    }
+
+    /// Sets a painted map by its number, or takes it away.
+    pub fn set_map(&mut self, map: usize, scales: Option<Box<[f32]>>) -> Result<()> {
+        self.cloth.set_map(Map::ALL[map], scales.as_deref()).map_err(to_js_error)
     }
 
     fn bad_particle(&self, particle: u32) -> Error {

@@ -13,7 +13,7 @@
 use crate::math::TINY;
 use crate::math::columns::Columns;
 use crate::math::simd::{Float, LANES, Level, Scalar, Simd, vectored};
-use crate::model::hardening::Softening;
+use crate::model::bend_scale::BendScale;
 use crate::model::irregular_bend::IrregularBends;
 use crate::solver::bend::banded::VectorColumns;
 use crate::solver::particle_stage::access::{
@@ -36,8 +36,7 @@ pub(crate) struct IrregularStep<'a> {
     pub displacement: &'a Columns,
     /// Rest curvature of the elements along weft and warp [m]; `None` without folds.
     pub rest: Option<[&'a [f32]; 2]>,
-    /// Loss of stiffness by plastic bending, if any.
-    pub softening: Option<Softening<'a>>,
+    pub scale: BendScale<'a>,
 }
 
 /// Projects all irregular elements once, group by group in the given order. The multipliers
@@ -153,12 +152,12 @@ fn project_lanes<S: Simd, P: ParticleAccess>(
     let clamped_ends = s.select(wa, zero, one) - s.select(wb, zero, one);
     let clamped = s.select(wm, one, one + clamped_ends * clamped_ends);
     let mut stiffness = s.load(&elements.area_fraction, first) * clamped * s.splat(step.stiffness);
-    if let Some(softening) = step.softening {
-        let mut left = [0.0; LANES];
-        for (left, at) in left.iter_mut().zip(element) {
-            *left = softening.stiffness_scale(softening.curvature[*at as usize]);
+    if !step.scale.is_one() {
+        let mut scales = [0.0; LANES];
+        for (scale, (element, middle)) in scales.iter_mut().zip(element.iter().zip(middle)) {
+            *scale = step.scale.of_element(*element as usize, &[*middle]);
         }
-        stiffness = stiffness * s.load(&left, 0);
+        stiffness = stiffness * s.load(&scales, 0);
     }
     let weight = (wa + wb) + s.splat(4.0) * wm;
     let share = one / (weight * stiffness + one);

@@ -15,7 +15,7 @@
 
 use crate::math::TINY;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};
-use crate::model::hardening::Softening;
+use crate::model::bend_scale::{BendScale, BendScaleKey};
 use crate::model::hinge::{Hinge, hinge_normal};
 use crate::model::hinges::Hinges;
 use crate::solver::bend::chebyshev::ChebyshevSteps;
@@ -44,8 +44,8 @@ pub(crate) struct MeshBendScratch {
     elements: Vec<TriangleStiffness>,
     stiffness: StiffnessMatrix,
     revision: u32,
-    /// Key of the plastic softening for which the matrix was assembled.
-    softening_key: Option<(u32, f32)>,
+    /// Key of the scales for which the matrix was assembled.
+    scale_key: BendScaleKey,
     /// Chebyshev steps, valid until masses or `assembled_stiffness` change too; `None` if too
     /// stiff.
     chebyshev: Option<ChebyshevSteps>,
@@ -80,7 +80,7 @@ impl MeshBendScratch {
             elements: Vec::with_capacity(triangles),
             stiffness: StiffnessMatrix::with_capacity(capacity),
             revision: 0,
-            softening_key: None,
+            scale_key: BendScaleKey::default(),
             chebyshev: None,
             assembled_stiffness: 0.0,
             rest_force: Vec::with_capacity(hinges),
@@ -105,8 +105,7 @@ pub(crate) struct MeshBend<'a> {
     pub active: &'a [bool],
     /// Rest curvature that folds add to each hinge [m]; `None` without folds.
     pub folds: Option<&'a [f32]>,
-    /// Loss of stiffness by plastic bending, if any.
-    pub softening: Option<Softening<'a>>,
+    pub scale: BendScale<'a>,
     pub step: HingeStep,
     /// Stiffness over mass of hinges that are one mean edge apart.
     pub stiffness_over_mass: f32,
@@ -153,9 +152,9 @@ impl MeshBend<'_> {
     /// changed.
     fn resize(&self, scratch: &mut MeshBendScratch, count: usize) -> bool {
         let (revision, stiffness) = (self.hinges.revision, self.step.stiffness);
-        let softening_key = self.softening.map(|softening| softening.key());
-        let known = (scratch.revision, scratch.assembled_stiffness, scratch.softening_key);
-        if known == (revision, stiffness, softening_key) && scratch.w.len() == count {
+        let scale_key = self.scale.key();
+        let known = (scratch.revision, scratch.assembled_stiffness, scratch.scale_key);
+        if known == (revision, stiffness, scale_key) && scratch.w.len() == count {
             return false;
         }
         for numbers in [&mut scratch.w, &mut scratch.mass, &mut scratch.inverse_diagonal] {
@@ -165,8 +164,8 @@ impl MeshBend<'_> {
         let more = [&mut scratch.change, &mut scratch.direction, &mut scratch.product];
         vectors.into_iter().chain(more).for_each(|vectors| vectors.resize(count, Vec4::ZERO));
         scratch.rest_force.resize(self.hinges.all.len(), Vec4::ZERO);
-        (scratch.revision, scratch.assembled_stiffness, scratch.softening_key) =
-            (revision, stiffness, softening_key);
+        (scratch.revision, scratch.assembled_stiffness, scratch.scale_key) =
+            (revision, stiffness, scale_key);
         true
     }
 
@@ -175,12 +174,9 @@ impl MeshBend<'_> {
         let MeshBendScratch { elements, stiffness, w, mass, inverse_diagonal, .. } = scratch;
         let all = &self.hinges.all;
         let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
-        let remaining = |triangle: usize| match &self.softening {
-            Some(softening) => softening.stiffness_scale(softening.curvature[triangle]),
-            None => 1.0,
-        };
+        let scale = |element: usize, corners: [u32; 3]| self.scale.of_element(element, &corners);
         let is_held = |vertex: u32| w[vertex as usize] == 0.0;
-        self.hinges.elements.compute_stiffness(all, holds, is_held, remaining, elements);
+        self.hinges.elements.compute_stiffness(all, holds, is_held, scale, elements);
         stiffness.assemble(all, elements, self.step.stiffness, count);
         let each = inverse_diagonal.iter_mut().zip(&*w).zip(&*mass).zip(stiffness.diagonal());
         for (((inverse_diagonal, w), mass), diagonal) in each {

@@ -33,7 +33,11 @@ pub(crate) mod spectral_bound;
 pub(crate) mod stiffness_matrix;
 pub(crate) mod twist;
 
+use crate::model::bend_scale::BendScale;
+use crate::model::folds::Folds;
 use crate::model::links::LinkKind;
+use crate::model::maps::Maps;
+use crate::model::material::Material;
 use crate::solver::bend::hinge::HingeStep;
 use crate::solver::bend::mesh_implicit::MeshBend;
 use crate::solver::integrate::elastic_corrections;
@@ -41,6 +45,9 @@ use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{distance, mesh_kernel};
 use crate::solver::world::World;
 use glam::Vec3;
+
+/// Largest bending rigidity that painted scales give [N m], as of the material.
+const MAX_RIGIDITY: f32 = 1.0;
 
 /// Whether this stage may change the angular momentum of a free piece.
 ///
@@ -137,16 +144,18 @@ fn solve_plates(world: &mut World, step: HingeStep, order: SweepOrder) {
     } else {
         None
     };
+    let (stiffness, mass) = (step.stiffness / area, world.material.density * area * lightest);
+    let limit = plate::MAX_STIFFNESS_OVER_MASS * mass / stiffness;
     let step = plate::PlateStep {
         level: world.level,
-        stiffness: step.stiffness / area,
-        mass: world.material.density * area * lightest,
+        stiffness,
+        mass,
         start_share: step.start_share,
         is_first: order == SweepOrder::Forward,
         predicted: &scratch.predicted,
         displacement: &scratch.displacement,
         rest,
-        softening: world.folds.hardening.softening(&world.material),
+        scale: BendScale::new(&world.folds.hardening, &world.material, &world.maps, limit),
     };
     let mass = effective_mass.as_deref().unwrap_or(&p.mass);
     plate::solve(plates, &mut scratch.bend.plates, step, &mut p.x, &p.w, mass);
@@ -171,6 +180,11 @@ pub(crate) fn update_folds(world: &mut World) {
     }
 }
 
+/// Scales of the bending stiffness that give at most `MAX_RIGIDITY`.
+fn bend_scale<'a>(folds: &'a Folds, material: &Material, maps: &'a Maps) -> BendScale<'a> {
+    BendScale::new(&folds.hardening, material, maps, MAX_RIGIDITY / material.bend_stiffness)
+}
+
 /// Bends the parts of a grid whose elements tears took out of the regular layout.
 #[inline(never)]
 fn solve_irregular(world: &mut World, step: HingeStep, order: SweepOrder) {
@@ -187,7 +201,7 @@ fn solve_irregular(world: &mut World, step: HingeStep, order: SweepOrder) {
         predicted: &scratch.predicted,
         displacement: &scratch.displacement,
         rest: world.folds.has_any.then_some([weft, warp]),
-        softening: world.folds.hardening.softening(&world.material),
+        scale: bend_scale(&world.folds, &world.material, &world.maps),
     };
     irregular::solve(world.level, step, order, &mut lambda, &mut world.particles);
     plates.irregular.lambda = lambda;
@@ -197,6 +211,7 @@ fn solve_irregular(world: &mut World, step: HingeStep, order: SweepOrder) {
 #[inline(never)]
 fn solve_cut_hinges(world: &mut World, step: HingeStep, order: SweepOrder) {
     let links = &world.constraints.dynamic;
+    let scale = bend_scale(&world.folds, &world.material, &world.maps);
     let lambda = &mut world.scratch.bend.hinge_lambda;
     if order == SweepOrder::Forward {
         lambda.clear();
@@ -211,7 +226,11 @@ fn solve_cut_hinges(world: &mut World, step: HingeStep, order: SweepOrder) {
             continue;
         }
         let hinge = world.constraints.hinges.dynamic_hinge(&world.mesh, links, link, &world.rest);
-        if let Some(hinge) = hinge {
+        if let Some(mut hinge) = hinge {
+            hinge.shape *= scale.painted(&hinge.particles);
+            if hinge.shape == 0.0 {
+                continue;
+            }
             let (predicted, displacement) = (&world.scratch.predicted, &world.scratch.displacement);
             let start = |i: usize| predicted.get(i) - displacement.get(i);
             hinge::project(&hinge, step, start, &mut lambda[link], &mut world.particles);
@@ -225,13 +244,15 @@ fn solve_hinges(world: &mut World, step: HingeStep, order: SweepOrder) {
     let (count, scratch) = (world.particles.len(), &mut world.scratch);
     let (predicted, displacement) = (&scratch.predicted, &scratch.displacement);
     let cell = world.mean_edge * world.mean_edge;
+    let scale = bend_scale(&world.folds, &world.material, &world.maps);
     let solver = MeshBend {
         hinges: &world.constraints.hinges,
         active: &world.constraints.links.active,
         folds: world.folds.has_any.then_some(&world.folds.offset[0][..]),
-        softening: world.folds.hardening.softening(&world.material),
+        scale,
         step,
-        stiffness_over_mass: step.stiffness / (world.material.density * cell * cell),
+        stiffness_over_mass: step.stiffness * scale.largest()
+            / (world.material.density * cell * cell),
         is_first: order == SweepOrder::Forward,
     };
     let start = |i: usize| predicted.get(i) - displacement.get(i);

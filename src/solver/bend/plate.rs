@@ -27,7 +27,7 @@
 use crate::math::columns::Columns;
 use crate::math::simd::Level;
 use crate::math::{max, same_bits};
-use crate::model::hardening::Softening;
+use crate::model::bend_scale::{BendScale, BendScaleKey};
 use crate::model::plate_elements::{PerKind, PlateElements};
 use crate::solver::bend::banded::VectorColumns;
 use crate::solver::bend::chebyshev::ChebyshevSteps;
@@ -45,7 +45,7 @@ const MIN_SECOND_SOLVE: f32 = 0.25;
 const SHIFT_FACTOR: f32 = 4.0;
 
 /// Largest stiffness over mass; beyond it f32 cannot distinguish the sheet from a rigid one.
-const MAX_STIFFNESS_OVER_MASS: f32 = 3.0e4;
+pub(crate) const MAX_STIFFNESS_OVER_MASS: f32 = 3.0e4;
 
 /// Buffers, and factors that are valid until pins, masses or stiffness change.
 #[derive(Clone, Debug, Default)]
@@ -66,8 +66,8 @@ pub(crate) struct PlateScratch {
     w: Vec<f32>,
     mass: Vec<f32>,
     revision: u32,
-    /// Key of the plastic softening for which the weights were computed.
-    softening_key: Option<(u32, f32)>,
+    /// Key of the scales for which the weights were computed.
+    scale_key: BendScaleKey,
 }
 
 /// Parameters of one solve.
@@ -87,8 +87,7 @@ pub(crate) struct PlateStep<'a> {
     pub displacement: &'a Columns,
     /// Rest curvature of each element [m] and its direction; `None` without folds.
     pub rest: Option<(&'a PerKind<Vec<f32>>, &'a PerKind<Columns>)>,
-    /// Loss of stiffness by plastic bending, if any.
-    pub softening: Option<Softening<'a>>,
+    pub scale: BendScale<'a>,
 }
 
 impl PlateScratch {
@@ -108,7 +107,7 @@ impl PlateScratch {
             w: vec![-1.0; count],
             mass: list(),
             revision: plates.revision,
-            softening_key: None,
+            scale_key: BendScaleKey::default(),
         }
     }
 
@@ -116,19 +115,19 @@ impl PlateScratch {
     fn refresh(
         &mut self,
         plates: &PlateElements,
-        softening: Option<Softening<'_>>,
+        scale: BendScale<'_>,
         w: &[f32],
         mass: &[f32],
     ) -> bool {
         let count = plates.count();
         let is_torn = w.len() > count;
         let (w, mass) = (&w[..count], &mass[..count]);
-        let softening_key = softening.map(|softening| softening.key());
-        let is_unchanged = (self.revision, self.softening_key) == (plates.revision, softening_key);
+        let scale_key = scale.key();
+        let is_unchanged = (self.revision, self.scale_key) == (plates.revision, scale_key);
         if is_unchanged && same_bits(&self.w, w) && same_bits(&self.mass, mass) {
             return false;
         }
-        (self.revision, self.softening_key) = (plates.revision, softening_key);
+        (self.revision, self.scale_key) = (plates.revision, scale_key);
         self.w.copy_from_slice(w);
         self.mass.copy_from_slice(mass);
         for (weight, share) in self.weight.iter_mut().zip(&plates.area_fraction) {
@@ -142,9 +141,7 @@ impl PlateScratch {
                 }
             }
         }
-        if let Some(softening) = softening {
-            softening.apply(plates.columns, &mut self.weight);
-        }
+        scale.apply(plates.columns, &mut self.weight);
         self.bound = if is_torn {
             let buffers = (&mut self.shifted[..], &mut self.curve);
             spectral_bound::of_torn(plates.columns, &self.weight, &self.w, buffers)
@@ -307,7 +304,7 @@ pub(crate) fn solve(
     let (count, columns) = (plates.count(), plates.columns);
     let max_stiffness = MAX_STIFFNESS_OVER_MASS * step.mass;
     let stiffness = if step.stiffness < max_stiffness { step.stiffness } else { max_stiffness };
-    let has_changed = step.is_first && scratch.refresh(plates, step.softening, w, mass);
+    let has_changed = step.is_first && scratch.refresh(plates, step.scale, w, mass);
     if let Some(chebyshev) = ChebyshevSteps::new(scratch.bound * stiffness) {
         if step.is_first {
             // Invalidate the factors, because `refresh` may have changed pins and masses.
@@ -316,7 +313,7 @@ pub(crate) fn solve(
         }
         return;
     }
-    let stiffness_over_mass = stiffness / step.mass;
+    let stiffness_over_mass = stiffness * step.scale.largest() / step.mass;
     if !step.is_first && stiffness_over_mass < MIN_SECOND_SOLVE {
         return;
     }

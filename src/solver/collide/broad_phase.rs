@@ -13,6 +13,7 @@
 use crate::geometry::aabb::Aabb;
 use crate::geometry::relative_motion::PointMotion;
 use crate::math::{max, min};
+use crate::model::maps::Map;
 use crate::solver::collide::any_moved::any_moved;
 use crate::solver::collide::contact_distance::{
     contact_gap, longest_free_edge, needs_triangle_tests, smoothing,
@@ -38,6 +39,7 @@ const REBUILD_AT: f32 = 0.95;
 pub(super) fn update_swept_bounds(world: &mut World) {
     let nearby = &mut world.scratch.contacts.nearby;
     let thickness = world.material.thickness;
+    let [least, largest] = world.maps.range(Map::Thickness);
     let mut count = 0;
     let is_new = nearby.is_stale;
     if is_new {
@@ -64,8 +66,9 @@ pub(super) fn update_swept_bounds(world: &mut World) {
         }
         let entry = &mut nearby.entries[count];
         let gap = contact_gap(body, thickness);
-        entry.longest_free_edge = longest_free_edge(shape, entry.smooth, gap, entry.sagitta_margin);
-        let distance = gap + entry.sagitta_margin;
+        entry.longest_free_edge =
+            longest_free_edge(shape, entry.smooth, gap * least, entry.sagitta_margin);
+        let distance = gap * largest + entry.sagitta_margin;
         entry.now = SweptBounds::of_body(body, shape, distance);
         // For cloth that is deep between two edges of a shape, the candidates depend on when the
         // search ran. So the search runs at the start of every tick, and a restored cloth gives the
@@ -145,6 +148,7 @@ fn rebuild(world: &mut World, margin: f32, moment: f32) {
     nearby.positions_at_rebuild.copy_from(x);
     nearby.triangles_at_rebuild = world.mesh.triangles.len();
     nearby.is_stale = false;
+    let [_, largest] = world.maps.range(Map::Thickness);
     // The position now and at the start of the substep: a fast particle is already far from there.
     let both = |i: usize| [x.get(i), scratch.predicted.get(i) - scratch.displacement.get(i)];
     let path = |i: usize| {
@@ -175,7 +179,7 @@ fn rebuild(world: &mut World, margin: f32, moment: f32) {
             }
         }
         entry.first_triangles = nearby.blocks.len() as u32;
-        let gap = contact_gap(body, world.material.thickness);
+        let gap = contact_gap(body, world.material.thickness) * largest;
         let has_features = shape.bends().is_some() && entry.first_triangles > entry.first_particles;
         let needs_triangles = needs_triangle_tests(shape, entry.longest_free_edge, world.mean_edge);
         if (has_features || needs_triangles) && nearby.longest_edge == 0.0 {

@@ -45,7 +45,7 @@ pub(super) fn update_clearance(
     let clearance = &mut clearance[range];
     compute_clearance(level, block, &particles.frames, bound, clearance);
     let mut is_within = false;
-    any_within(level, clearance, particles.gap, &mut is_within);
+    any_within(level, clearance, particles.largest_gap(), &mut is_within);
     is_within
 }
 

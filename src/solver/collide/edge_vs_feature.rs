@@ -45,8 +45,9 @@ pub(super) struct FeatureQuery<'a> {
     pub features: &'a Features,
     pub edges: &'a [EdgeEdgePair],
     pub vertices: &'a [VertexTrianglePair],
-    /// The distance to keep from features [m].
+    /// The distance to keep from features at scale 1 [m], and the largest scale.
     pub gap: f32,
+    pub largest_scale: f32,
     /// A penetration deeper than this [m] cannot result from motion in small steps.
     pub max_depth: f32,
 }
@@ -75,7 +76,7 @@ pub(super) fn collect_close_pairs(
 ) {
     let FeatureQuery { features, edges, vertices, .. } = *query;
     close_pairs.clear();
-    let distance = query.gap * CLOSE_GAPS;
+    let distance = query.gap * query.largest_scale * CLOSE_GAPS;
     // Height and normal both have the length of the unnormalised normal as a factor; NaN counts as
     // close.
     let is_close = |height: f32, normal: Vec3| {
@@ -164,7 +165,8 @@ fn edge_contact(
     let end = [particles.end_position(i), particles.end_position(j)];
     let start = [i, j].map(|i| start_position(particles, i, step));
     let (normal, height) = edge_normal(edge, end)?;
-    if height >= query.gap {
+    let gap = query.gap * particles.contact_scales.thickness(&[i, j]);
+    if height >= gap {
         return None;
     }
     let center_depth = query.shape.depth_of_center(edge.ends[0], normal);
@@ -182,12 +184,11 @@ fn edge_contact(
         if edge.sides == FeatureSides::TwoSided && !was_outside(own, start.iter().map(is_outside)) {
             return None;
         }
-        let start_height = corrected_start_height(start_height, query.gap, is_fast, own);
+        let start_height = corrected_start_height(start_height, gap, is_fast, own);
         if edge.sides == FeatureSides::Boundary && start_height <= 0.0 {
             return None;
         }
         let depenetration = particles.depenetration;
-        let gap = query.gap;
         (fraction, depenetration.penetration(normal, gap, start_height, height)?)
     } else {
         // The edge is beyond the center, so it counts only if it came through the edge feature.
@@ -197,7 +198,7 @@ fn edge_contact(
         }
         let time = start_height / (start_height - height);
         let crossing = [0, 1].map(|k| start[k] + (end[k] - start[k]) * time);
-        let penetration = Penetration::new(normal, query.gap - height);
+        let penetration = Penetration::new(normal, gap - height);
         (edge_crossing(edge, crossing, normal)?, penetration)
     };
     let weights = [1.0 - fraction, fraction, 0.0];
@@ -278,7 +279,8 @@ fn vertex_contact(
     let end = corners.map(|i| particles.end_position(i));
     let start = corners.map(|i| start_position(particles, i, step));
     let (normal, height) = vertex_normal(features, vertex, end, start)?;
-    if height >= query.gap {
+    let gap = query.gap * particles.contact_scales.thickness(&corners);
+    if height >= gap {
         return None;
     }
     let center_depth = query.shape.depth_of_center(vertex.position, normal);
@@ -300,9 +302,8 @@ fn vertex_contact(
         {
             return None;
         }
-        let start_height = corrected_start_height(start_height, query.gap, is_fast, own);
+        let start_height = corrected_start_height(start_height, gap, is_fast, own);
         let depenetration = particles.depenetration;
-        let gap = query.gap;
         let penetration = depenetration.penetration(normal, gap, start_height, height)?;
         TriangleContact { weights, penetration }
     } else {
@@ -310,7 +311,7 @@ fn vertex_contact(
         if back.dot(normal) <= 0.0 {
             return None;
         }
-        let penetration = Penetration::new(normal, query.gap - height);
+        let penetration = Penetration::new(normal, gap - height);
         TriangleContact { weights, penetration }
     };
     Some((corners, contact))

@@ -19,6 +19,7 @@
 use crate::geometry::transform::Transform;
 use crate::math::columns::Columns;
 use crate::math::{max, min};
+use crate::model::maps::{Map, Maps};
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::state::colliders::ColliderBody;
 use crate::state::settings::BdfScheme;
@@ -49,10 +50,44 @@ impl ContactMaterial {
     }
 
     /// Returns the fraction of a tangential motion of length `slide` [m] that friction cancels at a
-    /// correction of `depth` [m].
-    fn friction_fraction(&self, slide: f32, depth: f32) -> f32 {
-        let most = self.friction * depth;
+    /// correction of `depth` [m]. `scale` is that of the friction.
+    fn friction_fraction(&self, slide: f32, depth: f32, scale: f32) -> f32 {
+        let most = self.friction * scale * depth;
         if slide <= most { 1.0 } else { most / slide }
+    }
+}
+
+/// The painted scales of contacts.
+#[derive(Clone, Copy)]
+pub(super) struct ContactScales<'a> {
+    friction: Option<&'a [f32]>,
+    thickness: Option<&'a [f32]>,
+    /// The least and the largest scale of the thickness.
+    pub thickness_range: [f32; 2],
+}
+
+impl<'a> ContactScales<'a> {
+    pub fn of(maps: &'a Maps) -> Self {
+        Self {
+            friction: maps.get(Map::Friction),
+            thickness: maps.get(Map::Thickness),
+            thickness_range: maps.range(Map::Thickness),
+        }
+    }
+
+    /// The scale of the friction at a point of a triangle.
+    fn friction(&self, corners: &[usize], weights: &[f32]) -> f32 {
+        self.friction.map_or(1.0, |scales| {
+            corners.iter().zip(weights).map(|(i, weight)| scales[*i] * weight).sum()
+        })
+    }
+
+    /// The scale of the distance of an edge or a triangle: the least of its corners, so that it does
+    /// not push a corner away that keeps less.
+    pub fn thickness(&self, corners: &[usize]) -> f32 {
+        let least =
+            |scales: &[f32]| corners.iter().fold(f32::INFINITY, |least, i| min(scales[*i], least));
+        self.thickness.map_or(1.0, least)
     }
 }
 
@@ -115,8 +150,11 @@ pub(super) struct LocalParticles<'a> {
     /// The frames of the collider at the start and at the end of the substep.
     pub frames: [Transform; 2],
     pub material: ContactMaterial,
-    /// The distance that particles keep from the shape [m].
+    pub contact_scales: ContactScales<'a>,
+    /// The distance that particles keep from the shape at scale 1, without `margin` [m].
     pub gap: f32,
+    /// What they keep on top of it at smooth shapes, whatever their scale [m].
+    pub margin: f32,
     pub depenetration: Depenetration,
     pub scheme: BdfScheme,
     /// The index of the collider among the live ones.
@@ -129,6 +167,18 @@ pub(super) struct LocalParticles<'a> {
 }
 
 impl LocalParticles<'_> {
+    /// Returns the distance that a particle keeps from the shape [m].
+    #[inline(always)]
+    pub fn gap_of(&self, i: usize) -> f32 {
+        self.gap * self.contact_scales.thickness(&[i]) + self.margin
+    }
+
+    /// Returns the largest distance that a particle keeps [m].
+    #[inline(always)]
+    pub fn largest_gap(&self) -> f32 {
+        self.gap * self.contact_scales.thickness_range[1] + self.margin
+    }
+
     /// Returns the local position of a particle at the start of the substep [m].
     #[inline(always)]
     pub fn start_position(&self, i: usize) -> Vec3 {
@@ -173,8 +223,9 @@ impl LocalParticles<'_> {
             end + out - start
         };
         let tangential = slide - penetration.normal * slide.dot(penetration.normal);
-        let length = tangential.length();
-        out - tangential * self.material.friction_fraction(length, penetration.depth)
+        let (length, scale) =
+            (tangential.length(), self.contact_scales.friction(&corners, &weights));
+        out - tangential * self.material.friction_fraction(length, penetration.depth, scale)
     }
 
     /// Returns the velocity of the collider at a local point, in world space [m/s]. Its surface moved
@@ -237,10 +288,10 @@ impl LocalParticles<'_> {
                 surface_velocity: self.surface_velocity(at, carry),
                 approach_velocity: self.v.get(i),
                 correction,
-                gap: self.gap,
+                gap: self.gap_of(i),
                 height: 0.0,
                 pushed: 0.0,
-                friction: self.material.friction,
+                friction: self.material.friction * self.contact_scales.friction(&[i], &[1.0]),
                 restitution: self.material.restitution,
                 tangential_restitution: self.material.tangential_restitution,
             });

@@ -46,7 +46,9 @@ use crate::math::max;
 use crate::math::wide4::{Float4, xyz};
 use crate::solver::collide::contact_distance::{TRIANGLE_GAP, contact_gap};
 use crate::solver::collide::edge_vs_feature::FeatureQuery;
-use crate::solver::collide::local_particles::{ContactMaterial, Depenetration, LocalParticles};
+use crate::solver::collide::local_particles::{
+    ContactMaterial, ContactScales, Depenetration, LocalParticles,
+};
 use crate::solver::collide::mid_phase::PairSearch;
 use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
@@ -255,6 +257,7 @@ fn solve_colliders(
     let is_projection = projection.is_some();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
     let contacts = &mut scratch.contacts;
+    let scales = ContactScales::of(&world.maps);
     for (at, body) in world.colliders.iter_mut().enumerate() {
         let neighbours = contacts.nearby.of_collider(at);
         if neighbours.particle_blocks.is_empty() {
@@ -278,7 +281,9 @@ fn solve_colliders(
             } else {
                 ContactMaterial::of(body, world.material.friction, world.material.restitution)
             },
+            contact_scales: scales,
             gap,
+            margin: neighbours.sagitta_margin,
             depenetration: Depenetration {
                 max_step: MAX_DEPENETRATION_SPEED * scheme.h,
                 deep: if is_projection {
@@ -294,7 +299,6 @@ fn solve_colliders(
             contacts: &mut contacts.collider_contacts,
             contact_slots: &mut contacts.contact_slots,
         };
-        particles.gap += neighbours.sagitta_margin;
         let (clearance, pushes) = (&mut contacts.clearance, &mut contacts.pushes);
         let has_triangles = neighbours.longest_free_edge < f32::INFINITY;
         if has_triangles || clearance.len() != particles.w.len() {
@@ -326,12 +330,13 @@ fn solve_colliders(
         let Some(shape) = body.collision_shape() else { continue };
         if shape.bends().is_some() {
             let triangle_gap = gap * TRIANGLE_GAP;
+            let largest_gap = triangle_gap * scales.thickness_range[1];
             let pairs = &mut contacts.long_pairs;
             let own = mid_phase::features_of(shape);
             match own.filter(|_| !long.is_empty()) {
                 Some(own) => {
                     let long = (long, neighbours.longest_free_edge);
-                    let search = PairSearch { distance: triangle_gap, smooth: neighbours.smooth };
+                    let search = PairSearch { distance: largest_gap, smooth: neighbours.smooth };
                     pairs.collect(own, search, &particles, &world.mesh, long);
                 }
                 None => pairs.clear(),
@@ -342,6 +347,7 @@ fn solve_colliders(
                 edges: neighbours.candidates.edges,
                 vertices: neighbours.candidates.vertices,
                 gap: triangle_gap,
+                largest_scale: scales.thickness_range[1],
                 max_depth: neighbours.longest_edge * 0.5,
             };
             let long_features =
@@ -373,7 +379,7 @@ fn solve_colliders(
                         max(sharp, smooth)
                     },
                 );
-                if pushed <= triangle_gap * (edge_vs_feature::CLOSE_GAPS - 1.0) {
+                if pushed <= largest_gap * (edge_vs_feature::CLOSE_GAPS - 1.0) {
                     break;
                 }
             }

@@ -47,7 +47,7 @@ pub(super) fn solve_blocks(
     clearance: &mut [f32],
 ) {
     let count = particles.w.len();
-    let bound = shape.distance_bound();
+    let (bound, largest_gap) = (shape.distance_bound(), particles.largest_gap());
     for block in blocks {
         let first = *block as usize * BLOCK;
         let range = first..(first + BLOCK).min(count);
@@ -58,7 +58,7 @@ pub(super) fn solve_blocks(
         }
         for i in range {
             // The comparison is false for NaN, so that NaN is tested.
-            if particles.w[i] <= 0.0 || clearance[i] > particles.gap {
+            if particles.w[i] <= 0.0 || clearance[i] > largest_gap {
                 continue;
             }
             solve_particle(shape, particles, candidates, i);
@@ -74,7 +74,8 @@ pub(super) fn solve_particle(
     candidates: &Candidates<'_>,
     i: usize,
 ) {
-    let (from, end, gap) = (particles.start_position(i), particles.end_position(i), particles.gap);
+    let (from, end) = (particles.start_position(i), particles.end_position(i));
+    let gap = particles.gap_of(i);
     let depenetration = particles.depenetration;
     let nearby = |surface| CandidateTriangles { surface, triangles: candidates.faces(i) };
     let penetration = match shape {

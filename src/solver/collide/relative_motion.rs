@@ -17,6 +17,7 @@
 use crate::geometry::aabb::Aabb;
 use crate::math::simd::leveled;
 use crate::math::{max, min};
+use crate::model::maps::Map;
 use crate::solver::collide::body_motion::BodyMotion;
 use crate::solver::collide::contact_distance::{contact_gap, smoothing};
 use crate::solver::collide::nearby_blocks::BLOCK;
@@ -36,6 +37,7 @@ pub(crate) fn needed_substeps(world: &mut World, available: f32) -> f32 {
     let mut bodies = core::mem::take(&mut world.scratch.contacts.body_motions);
     bodies.clear();
     let (step, margin) = (STEP * world.mean_edge, MARGIN * world.mean_edge);
+    let [_, largest] = world.maps.range(Map::Thickness);
     // Displacement of a particle in the tick up to which no body needs more substeps [m].
     let mut harmless = f32::INFINITY;
     for body in world.colliders.iter_mut() {
@@ -44,7 +46,7 @@ pub(crate) fn needed_substeps(world: &mut World, available: f32) -> f32 {
         }
         let Some(shape) = body.collision_shape() else { continue };
         let (_, sagitta_margin) = smoothing(shape, world.mean_edge);
-        let gap = contact_gap(body, world.material.thickness) + sagitta_margin;
+        let gap = contact_gap(body, world.material.thickness) * largest + sagitta_margin;
         let motion = BodyMotion::new(body, shape, gap + margin, step);
         harmless = min(available * motion.step - motion.longest, harmless);
         bodies.push(motion);

@@ -55,7 +55,7 @@ struct TriangleMotion {
 }
 
 /// Pushes the nearby triangles, and all long ones, out of a shape once, with contact distance `gap`
-/// [m] of particles. Returns the depth of the deepest penetration [m], 0 if there was none.
+/// [m] of particles at scale 1. Returns the depth of the deepest penetration [m], 0 if there was none.
 pub(super) fn solve(
     shape: &CollisionShape,
     particles: &mut LocalParticles<'_>,
@@ -68,6 +68,7 @@ pub(super) fn solve(
     let (gap, mut deepest) = (gap * TRIANGLE_GAP, 0.0);
     pushes.reset(particles.w.len());
     let mut push = |corners: [usize; 3], motion: TriangleMotion| {
+        let gap = gap * particles.contact_scales.thickness(&corners);
         let Some(contact) = find_contact(shape, &motion, gap) else { return };
         let TriangleContact { weights, penetration } = contact;
         let from = interpolate(motion.start, weights);
@@ -89,7 +90,8 @@ pub(super) fn solve(
         start: corners.map(|i| particles.start_position(i)),
         end: corners.map(|i| particles.end_position(i)),
     };
-    let limit = gap + REACH * neighbours.longest_edge;
+    let largest_gap = gap * particles.contact_scales.thickness_range[1];
+    let limit = largest_gap + REACH * neighbours.longest_edge;
     for block in neighbours.triangle_blocks {
         let first = *block as usize * BLOCK;
         for corners in &triangles[first..(first + BLOCK).min(triangles.len())] {
@@ -111,7 +113,7 @@ pub(super) fn solve(
             continue;
         }
         let longest = max(edge2, longest_edge_squared(motion.start)).sqrt();
-        if !is_far(corners, gap + REACH * longest) {
+        if !is_far(corners, largest_gap + REACH * longest) {
             push(corners, motion);
         }
     }

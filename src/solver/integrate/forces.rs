@@ -11,12 +11,14 @@
 //! corners by their rest areas. It runs once per tick and is explicit in time, so the pressure is
 //! clamped to the range where explicit drag is stable.
 //!
-//! Reads positions, velocities, masses, wind and material; writes `scratch.acceleration` and
+//! Reads positions, velocities, masses, wind, material and maps; writes `scratch.acceleration` and
 //! `scratch.relative_wind`.
 //! Invariant: forces add up in triangle order, so the bits do not depend on threads or SIMD level.
 
-use crate::math::simd::{Float, Simd, leveled, vectored};
+use crate::math::columns::Columns;
+use crate::math::simd::{Float, Scalar, Simd, leveled, vectored};
 use crate::math::{TINY, max};
+use crate::model::maps::{Map, mean};
 use crate::solver::vertex_sums::contribution::{
     LaneVector, RowBand, SumInput, TriangleContribution,
 };
@@ -78,13 +80,16 @@ fn add_surface_wind(world: &mut World, gravity: Vec3) {
     };
     let force = &mut world.scratch.acceleration;
     force.fill(Vec3::ZERO);
-    sum_in_bands(threads, input, force, |band, force| {
-        if pressure.lift > 0.0 {
-            sum_drag_and_lift(level, input, DragAndLift(pressure), band, force);
-        } else {
-            sum_drag(level, input, pressure, band, force);
-        }
-    });
+    match world.maps.get(Map::Drag) {
+        Some(scales) => sum_painted(input, pressure, scales, force),
+        None => sum_in_bands(threads, input, force, |band, force| {
+            if pressure.lift > 0.0 {
+                sum_drag_and_lift(level, input, DragAndLift(pressure), band, force);
+            } else {
+                sum_drag(level, input, pressure, band, force);
+            }
+        }),
+    }
     threads.parallel_for(
         (force.slices_mut(), &p.mass[..]),
         MIN_PARTICLES_PER_THREAD,
@@ -145,6 +150,22 @@ vectored! {
         band: RowBand,
         force: [&mut [f32]; 3],
     ) = triangles::sum, Avx2, triangles::sum_scalar
+}
+
+/// Adds the drag, times the mean painted scale of the corners, and the lift of each triangle to its
+/// corners.
+#[inline(never)]
+fn sum_painted(input: SumInput<'_>, pressure: Pressure, scales: &[f32], out: &mut Columns) {
+    for (corners, areas) in input.triangles.iter().zip(input.areas) {
+        let of = |columns: &Columns| corners.map(|i| columns.get(i as usize).to_array());
+        let painted = Pressure { drag: pressure.drag * mean(scales, corners), ..pressure };
+        let [a, b, c] = *areas;
+        let (x, air) = (of(input.x), of(input.attribute));
+        let force = painted.force_on::<Scalar, true>(Scalar, x, air, a + b + c);
+        for (i, area) in corners.iter().zip(areas) {
+            out.add(*i as usize, Vec3::from(force) * *area);
+        }
+    }
 }
 
 leveled! {

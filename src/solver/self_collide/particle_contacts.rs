@@ -8,14 +8,15 @@
 //! relaxation 0.8. Of unequal masses the lighter one moves farther, so momentum is conserved. Fixed
 //! particles and neighbours in the mesh do not collide, and triangles may still cross.
 //!
-//! Reads `particle_collision` and particles; writes particle positions.
+//! Reads `particle_collision`, particles and the painted thickness; writes particle positions.
 //!
-//! Invariant: only pairs that are too near at the start of the pass move, in the order of their
-//! particles; so the result does not depend on when the pair list was made.
+//! Invariant: only pairs that are nearer than the largest distance at the start of the pass move, in
+//! the order of their particles; so the result does not depend on when the pair list was made.
 
 use crate::error::{Result, check};
-use crate::math::TINY;
+use crate::math::{TINY, min};
 use crate::mesh::{NONE, triangle_of};
+use crate::model::maps::Map;
 use crate::solver::self_collide::particle_pairs::{PairListInput, ParticleCollision};
 use crate::solver::self_collide::surface::surface_stages::MAX_GAP;
 use crate::solver::world::World;
@@ -56,7 +57,7 @@ impl World {
         let is_wanted = self.settings.self_collision == SelfCollision::Particles;
         self.particle_collision = is_wanted.then(|| {
             let input = pair_list_input(self);
-            let (distance, capacity) = (collision_distance(self), self.capacity());
+            let (distance, capacity) = (largest_distance(self), self.capacity());
             Box::new(ParticleCollision::new(input, distance, self.mean_edge, capacity))
         });
     }
@@ -67,10 +68,40 @@ fn pair_list_input(world: &World) -> PairListInput<'_> {
     PairListInput { level: *level, mesh, rest, particles }
 }
 
-/// Distance that particles keep [m].
+/// Distance that particles keep at scale 1 [m].
 fn collision_distance(world: &World) -> f32 {
     let own = world.settings.self_distance;
     if own > 0.0 { own } else { DEFAULT_DISTANCE * world.mean_edge }
+}
+
+/// Largest distance that particles keep [m].
+fn largest_distance(world: &World) -> f32 {
+    match world.maps.get(Map::Thickness) {
+        Some(_) => {
+            let [_, largest] = world.maps.range(Map::Thickness);
+            min(collision_distance(world) * largest, MAX_DISTANCE * world.mean_edge)
+        }
+        None => collision_distance(world),
+    }
+}
+
+/// Distance that each pair keeps.
+#[derive(Clone, Copy)]
+struct PairDistance<'a> {
+    /// At scale 1, and at most [m].
+    unscaled: f32,
+    largest: f32,
+    /// Painted thickness of each particle; `None` if all are 1.
+    scales: Option<&'a [f32]>,
+}
+
+impl PairDistance<'_> {
+    #[inline(always)]
+    fn of(&self, [i, j]: [usize; 2]) -> f32 {
+        self.scales.map_or(self.largest, |scales| {
+            min(self.unscaled * 0.5 * (scales[i] + scales[j]), self.largest)
+        })
+    }
 }
 
 /// Rebuilds the pair list if particles moved too far since it was made.
@@ -84,12 +115,18 @@ pub(crate) fn refresh_pairs(world: &mut World) {
 
 /// Joins the pieces of free particles that are too near, in `scratch.piece_groups`.
 pub(crate) fn join_touching_pieces(world: &mut World) {
+    let unscaled = collision_distance(world);
     let groups = &mut world.scratch.piece_groups;
     groups.reset(world.pieces);
     let Some(collision) = &world.particle_collision else {
         return;
     };
     let (p, labels, mesh) = (&world.particles, &world.scratch.pieces, &world.mesh);
+    let own = PairDistance {
+        unscaled,
+        largest: collision.distance,
+        scales: world.maps.get(Map::Thickness),
+    };
     for [i, j] in collision.pairs.iter().map(|pair| pair.map(|particle| particle as usize)) {
         let corners = [mesh.corner_of[i], mesh.corner_of[j]];
         let is_held = p.w[i] <= 0.0 || p.w[j] <= 0.0;
@@ -98,7 +135,8 @@ pub(crate) fn join_touching_pieces(world: &mut World) {
         }
         let [a, b] = corners.map(|corner| labels.label[triangle_of(corner)]);
         let distance2 = (p.x.get(j) - p.x.get(i)).length_squared();
-        if a != b && distance2 < collision.distance * collision.distance {
+        let distance = own.of([i, j]);
+        if a != b && distance2 < distance * distance {
             groups.join(a, b);
         }
     }
@@ -106,19 +144,21 @@ pub(crate) fn join_touching_pieces(world: &mut World) {
 
 /// Separates the pairs of particles that are too near, in one pass.
 pub(crate) fn solve(world: &mut World) {
+    let unscaled = collision_distance(world);
     let Some(collision) = &mut world.particle_collision else {
         return;
     };
-    let (p, distance) = (&mut world.particles, collision.distance);
+    let (p, largest) = (&mut world.particles, collision.distance);
+    let own = PairDistance { unscaled, largest, scales: world.maps.get(Map::Thickness) };
     let (pairs, touching) = (&collision.pairs, &mut collision.touching);
     // A list without margin holds touching pairs only.
     let touching =
-        if collision.margin > 0.0 { collect_touching(pairs, touching, p, distance) } else { pairs };
+        if collision.margin > 0.0 { collect_touching(pairs, touching, p, largest) } else { pairs };
     for pair in touching {
         let [i, j] = pair.map(|particle| particle as usize);
         let d = p.x.get(j) - p.x.get(i);
         let length = d.length();
-        let is_fixed = p.w[i] <= 0.0 || p.w[j] <= 0.0;
+        let (is_fixed, distance) = (p.w[i] <= 0.0 || p.w[j] <= 0.0, own.of([i, j]));
         if is_fixed || length <= TINY || length >= distance {
             continue;
         }

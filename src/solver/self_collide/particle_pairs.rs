@@ -56,7 +56,7 @@ pub(crate) struct ParticleCollision {
     firsts: Vec<u32>,
     /// Connected piece of each site in the mesh as created.
     pieces: Vec<u32>,
-    /// Distance that particles keep [m].
+    /// Largest distance that particles keep [m].
     pub distance: f32,
     /// Rest distance up to which particles of one piece do not collide [m].
     neighbour_distance: f32,
@@ -78,8 +78,8 @@ pub(crate) struct PairListInput<'a> {
 }
 
 impl ParticleCollision {
-    /// Allocates for a cloth that may grow to `capacity` particles. `distance` is the distance that
-    /// particles keep, `mean_edge` the mean rest length [m].
+    /// Allocates for a cloth that may grow to `capacity` particles. `distance` is the largest
+    /// distance that particles keep, `mean_edge` the mean rest length [m].
     pub fn new(input: PairListInput<'_>, distance: f32, mean_edge: f32, capacity: usize) -> Self {
         let larger = |a: f32, b: f32| if a > b { a } else { b };
         let neighbour_distance = larger(NEIGHBOUR_DISTANCE * mean_edge, distance);

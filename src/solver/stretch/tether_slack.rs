@@ -7,14 +7,15 @@
 //! d              geodesic distance of a particle from its pin, along the cloth at rest [m]
 //! hold stretch   max distance / d between two held particles, at least 1
 //! ε              0 for rigid links; else 0.005 + 4 σ g L / K, at most max_stretch / 2
-//! σ, L, K        largest mass per area, longest d, least stretch stiffness: σ g L / K is the
-//!                strain at the top of a strip of length L that hangs under its own weight
+//! σ, L, K        largest mass per area, longest d, least stretch stiffness where it is painted
+//!                least: σ g L / K is the strain at the top of a strip of length L that hangs under
+//!                its own weight
 //! ```
 //! So tethers carry the load that the sweeps have not carried yet, and none of the load that really
 //! stretches the cloth. A cloth that was held apart contracts at the rate of the first term,
 //! because a contraction within one tick would give it a large velocity.
 //!
-//! Reads `tethers`, pins, grabs, positions, `material`; writes `tether_slack` and `pin_stretch`.
+//! Reads `tethers`, pins, grabs, positions, `material`, `maps`; writes `tether_slack` and `pin_stretch`.
 //! Invariant: runs once a tick, before the substeps; the slack is at least 1.
 
 // Where there is no SIMD, only the scalar path is used.
@@ -25,6 +26,7 @@
 
 use crate::math::simd::{Float, MAX_LANES, Simd, vectored};
 use crate::math::{max, min};
+use crate::model::maps::Map;
 use crate::solver::stretch::tethers::refresh_pin_positions;
 use crate::solver::world::World;
 use crate::state::pins::Pin;
@@ -37,6 +39,9 @@ const CONTRACTION_RATE: f32 = 2.0;
 
 /// The load that tethers leave to the links, over the cloth's own weight: folds and wind add to it.
 const LOAD_FACTOR: f32 = 4.0;
+
+/// Painted scales of the stretch stiffness count as at least this.
+const MIN_PAINTED_STRETCH: f32 = 1.0e-6;
 
 /// Computes the slack of this tick by the formula of the module doc.
 pub(crate) fn update(world: &mut World) {
@@ -84,8 +89,9 @@ fn compute_weight_strain(world: &World) -> f32 {
     let longest =
         sets.fold(0.0, |largest: f32, l| if l.is_finite() { max(*l, largest) } else { largest });
     let [_, heaviest] = world.mass_scales.range();
+    let [weakest, _] = world.maps.range(Map::Stretch);
     let load = material.density * world.settings.gravity.length() * heaviest;
-    let strain = load * longest / softest;
+    let strain = load * longest / (softest * max(weakest, MIN_PAINTED_STRETCH));
     let own = MIN_SOFT_SLACK + LOAD_FACTOR * strain;
     let bound = world.settings.max_stretch;
     if bound > 0.0 && bound * 0.5 < own { bound * 0.5 } else { own }

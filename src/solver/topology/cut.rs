@@ -100,7 +100,7 @@ pub(crate) fn cut(world: &mut World, plan: &CutPlan) {
         push_split_vertex(world, new, old, &mut fan);
     }
     for sides in opened {
-        world.constraints.open_edge(&world.mesh, sides, &world.material);
+        world.constraints.open_edge(&world.mesh, sides, (&world.material, &world.maps));
     }
     (0..world.rest.len() as u32).for_each(|site| world.refresh_constraints_at(site));
     world.compute_masses();
@@ -142,12 +142,14 @@ fn split_edge(
     world.scratch.push_particle();
     let scales = [a, b].map(|end| world.mass_scales.get(end as usize));
     world.mass_scales.push(scales[0] + (scales[1] - scales[0]) * share);
+    world.maps.push_between([a, b], share);
     let anchors = [a, b].map(|end| world.anchors.get(end).copied());
     if let [Some(a), Some(b)] = anchors {
         world.anchors.insert(AnchorConstraint::between(new as u32, &a, &b, share));
     }
-    let rest_shape = RestShape { mesh: &world.mesh, rest: &world.rest, material: &world.material };
-    world.constraints.split_edge(rest_shape, &division, links_of_triangle);
+    let World { mesh, rest, material, maps, constraints, .. } = &mut *world;
+    let rest_shape = RestShape { mesh, rest, material, maps };
+    constraints.split_edge(rest_shape, &division, links_of_triangle);
     let mut event = world.event_at(EventKind::EdgeDivided, world.particles.x.get(new));
     (event.particle_a, event.particle_b, event.vertex) = (a, b, vertex);
     world.events.push(event);

@@ -21,6 +21,7 @@ use crate::mesh::split_vertex::{FanArc, OpenedEdge, best_arc};
 use crate::mesh::{Fan, NONE, next_corner, triangle_of};
 use crate::model::crack_tips;
 use crate::model::links::{LinkKind, Links};
+use crate::model::maps::Map;
 use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::topology::piece_labels::PieceLabels;
 use crate::solver::topology::tear_scratch::{TearCandidate, TearScratch};
@@ -111,11 +112,13 @@ fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
     candidates.clear();
     let free_slots = candidates.capacity().saturating_sub(1);
     let max_count = (world.settings.max_tears_per_tick as usize).min(free_slots);
-    let limit = world.material.tear_stretch;
+    let limit = world.material.tear_stretch - 1.0;
     let variation = world.material.tear_variation;
+    let residual = residual_tip_strain(world);
     let tip_strain =
-        crack_tips::tear_strain(&world.material, world.mean_edge, residual_tip_strain(world));
-    let min_strain = tip_strain * (1.0 - 0.5 * variation);
+        |limit: f32| crack_tips::tear_strain(limit, &world.material, world.mean_edge, residual);
+    let [weakest, _] = world.maps.range(Map::Tear);
+    let min_strain = tip_strain(limit * weakest) * (1.0 - 0.5 * variation);
     let p = &world.particles;
     let constraints = &world.constraints;
     let batches = constraints.batches.iter().filter(|batch| batch.kind != LinkKind::Bend);
@@ -138,7 +141,8 @@ fn collect_candidates(world: &World, candidates: &mut Vec<TearCandidate>) {
                 continue;
             }
             let is_at_tip = world.crack_tips[a as usize] || world.crack_tips[b as usize];
-            let tear_strain = if is_at_tip { tip_strain } else { limit - 1.0 };
+            let limit = limit * world.maps.mean(Map::Tear, &[a, b]);
+            let tear_strain = if is_at_tip { tip_strain(limit) } else { limit };
             let ends = [a, b].map(|end| world.mesh.source[end as usize]);
             let strength = 1.0 + variation * (unit(STRENGTH_SEED, &ends) - 0.5);
             let excess = stretch / (tear_strain * strength);
@@ -302,6 +306,7 @@ pub(crate) fn push_split_vertex(world: &mut World, new: u32, from: u32, fan: &mu
     debug_assert_eq!(at, new as usize);
     world.scratch.push_particle();
     world.mass_scales.push(world.mass_scales.get(from as usize));
+    world.maps.push_between([from; 2], 0.0);
     for vertex in [from, new] {
         compute_mass(world, vertex, fan);
     }
@@ -356,7 +361,7 @@ fn compute_mass(world: &mut World, vertex: u32, fan: &mut Fan) {
 /// Updates the links at opened edges, which get links on both sides.
 fn update_links(world: &mut World, opened: &[OpenedEdge]) {
     for sides in opened {
-        world.constraints.open_edge(&world.mesh, *sides, &world.material);
+        world.constraints.open_edge(&world.mesh, *sides, (&world.material, &world.maps));
     }
     for [edge, other] in opened {
         for corner in [*edge, next_corner(*edge), *other, next_corner(*other)] {

@@ -1,8 +1,9 @@
-//! Mass scales, positions and velocities of particles.
+//! Mass scales, painted maps, positions and velocities of particles.
 
 use crate::ffi::pointers::{OutVec3s, check, read_f32s, read_u32s, read_vec3s};
 use crate::registry::with_cloth;
 use crate::status::{CallError, MuslinStatus, Result};
+use crate::types::material::map as map_of;
 use crate::types::value::{MuslinCloth, MuslinVec3};
 use muslin_core::{Cloth, Error};
 
@@ -30,6 +31,43 @@ pub unsafe extern "C" fn muslin_cloth_set_mass_scales(
             (read_u32s("particles", particles, count)?, read_f32s("scales", scales, count)?)
         };
         Ok(cloth.set_mass_scales(&particles, &scales)?)
+    })
+}
+
+/// Paints a property (MUSLIN_MAP_STRETCH, MUSLIN_MAP_BEND, MUSLIN_MAP_TEAR, MUSLIN_MAP_FRICTION,
+/// MUSLIN_MAP_THICKNESS or MUSLIN_MAP_DRAG): multiplies what the material says by one scale per
+/// particle, from 0 to 1000; 1 is as the material says. NULL takes the map away, whatever `count`.
+///
+/// A link, a hinge or a triangle takes the mean of the scales at its corners; a contact interpolates
+/// them at its point, and two layers take the mean of both sides. Own values of a collider are
+/// scaled too.
+///
+/// Maps stay when the material changes and when the cloth is reset. A particle that a tear splits
+/// off takes the scale of its source; one that a cut adds to an edge takes the scale between those of
+/// its ends. Scales take effect with the next tick. A map takes memory only while it is set.
+///
+/// @return MUSLIN_STATUS_BAD_VALUE for any other `map`, if `count` is not the number of particles, or
+/// if a scale is not from 0 to 1000 (the message names its index)
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_set_map(
+    cloth: MuslinCloth,
+    map: u32,
+    scales: *const f32,
+    count: u32,
+) -> MuslinStatus {
+    with_cloth(cloth, |cloth| {
+        let map = map_of(map)?;
+        if scales.is_null() {
+            return Ok(cloth.set_map(map, None)?);
+        }
+        let particles = cloth.particle_count();
+        if count != particles {
+            let must = format!("be {particles}, the number of particles, but is {count}");
+            return Err(CallError::bad_value("count", must));
+        }
+        // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+        let scales = unsafe { read_f32s("scales", scales, count)? };
+        Ok(cloth.set_map(map, Some(&scales))?)
     })
 }
 

@@ -1,7 +1,7 @@
 //! Material of a cloth, and presets.
 
 use crate::status::{CallError, Result};
-use muslin_core::{Material, Preset};
+use muslin_core::{Map, Material, Preset};
 
 /// Silk: light and fluid, 100 g/m^2.
 pub const MUSLIN_PRESET_SILK: u32 = 0;
@@ -15,6 +15,22 @@ pub const MUSLIN_PRESET_LEATHER: u32 = 3;
 pub const MUSLIN_PRESET_PAPER: u32 = 4;
 /// Flag nylon of 200 denier, 105 g/m^2.
 pub const MUSLIN_PRESET_FLAG_NYLON: u32 = 5;
+
+/// Painted stiffness against stretch and shear. Links without compliance (a stiffness of 0) stay
+/// rigid; at scale 0 other links do not resist.
+pub const MUSLIN_MAP_STRETCH: u32 = 0;
+/// Painted bending rigidity; at scale 0 the cloth is limp. Does not act on a `bend_stiffness` from 1
+/// on.
+pub const MUSLIN_MAP_BEND: u32 = 1;
+/// Painted strength: the strain at which an edge tears, `tear_stretch` - 1. At scale 0 an edge tears
+/// as soon as it is stretched at all; a large scale keeps it from tearing.
+pub const MUSLIN_MAP_TEAR: u32 = 2;
+/// Painted coefficient of friction of contacts with colliders and of surface self-collision.
+pub const MUSLIN_MAP_FRICTION: u32 = 3;
+/// Painted distance from colliders and between layers in self-collision.
+pub const MUSLIN_MAP_THICKNESS: u32 = 4;
+/// Painted drag coefficient; lift stays as it is.
+pub const MUSLIN_MAP_DRAG: u32 = 5;
 
 /// Material of a cloth, in SI units. Every field may be changed between ticks.
 ///
@@ -152,6 +168,19 @@ impl From<MuslinMaterial> for Material {
             yield_hardening: material.yield_hardening,
             yield_weakening: material.yield_weakening,
         }
+    }
+}
+
+/// Returns the map that a MUSLIN_MAP_ number names.
+pub fn map(number: u32) -> Result<Map> {
+    match number {
+        MUSLIN_MAP_STRETCH => Ok(Map::Stretch),
+        MUSLIN_MAP_BEND => Ok(Map::Bend),
+        MUSLIN_MAP_TEAR => Ok(Map::Tear),
+        MUSLIN_MAP_FRICTION => Ok(Map::Friction),
+        MUSLIN_MAP_THICKNESS => Ok(Map::Thickness),
+        MUSLIN_MAP_DRAG => Ok(Map::Drag),
+        _ => Err(CallError::bad_value("map", "be a MUSLIN_MAP_ value")),
     }
 }
 

@@ -2,6 +2,7 @@
 
 import init, { Cloth } from "../muslin/index.js";
 import { Pointers } from "../muslin/pointers.js";
+import { colorChannel } from "../colors.js";
 import { makeProgram } from "./shading.js";
 import { eyeRay, perspective } from "./view.js";
 
@@ -22,6 +23,10 @@ const cloth = Cloth.grid({
 });
 cloth.material = { tearStretch: 1.7 };
 cloth.wind = { velocity: [0.3, 0, 1.4], gust: 0.7, wander: 0.5, turbulence: 0.4 };
+
+// Vertex colours, as a mesh file has them in COLOR_0: red is the strength. Here the hem is stronger.
+const colors = new Uint8Array(4 * 48 * 48).map((_, i) => (i % 4 === 0 && i < 4 * 48 * 44 ? 85 : 255));
+cloth.setMap("tear", colorChannel(cloth, colors, 0).map((red) => 3 * red)); // 1 to 3 times the material
 
 const STRIDE = 24; // position, normal: three floats each
 const vertices = new Float32Array((STRIDE / 4) * cloth.vertexCapacity); // large enough for every tear

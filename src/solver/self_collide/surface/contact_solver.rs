@@ -57,6 +57,30 @@ const DAMPING_TIME: f32 = 0.01;
 /// contact. It limits the displacement of particles with small weights beside fixed ones.
 const MIN_INVERSE_MASS_SHARE: f32 = 0.005;
 
+/// Coulomb friction between layers.
+#[derive(Clone, Copy)]
+pub(crate) struct LayerFriction<'a> {
+    /// Coefficient of the material.
+    pub coefficient: f32,
+    /// Painted scale of each particle; `None` if all are 1.
+    pub scales: Option<&'a [f32]>,
+}
+
+impl LayerFriction<'_> {
+    /// The coefficient at a contact.
+    #[inline(always)]
+    fn at(&self, contact: &Contact) -> f32 {
+        self.scales.map_or(self.coefficient, |scales| self.coefficient * mean_at(contact, scales))
+    }
+}
+
+/// The mean of the scales at both closest points.
+#[inline(never)]
+fn mean_at(contact: &Contact, scales: &[f32]) -> f32 {
+    let each = contact.ids.iter().zip(contact.weights);
+    0.5 * each.map(|(id, weight)| scales[*id as usize] * weight.abs()).sum::<f32>()
+}
+
 /// A contact that the solver works on in this substep.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ActiveContact {
@@ -175,7 +199,7 @@ pub(crate) fn solve(
     supports: &mut [ColliderContact],
     start: &[Float4],
     x: &mut [Float4],
-    friction: f32,
+    friction: LayerFriction<'_>,
     force_scale: f32,
 ) {
     index.rebuild(forces);
@@ -192,7 +216,8 @@ pub(crate) fn solve(
     }
     solve_normals(level, contacts, active, supports, x);
     for state in &mut *active {
-        solve_friction(&contacts[state.contact as usize], state, start, x, friction);
+        let contact = &contacts[state.contact as usize];
+        solve_friction(contact, state, start, x, friction.at(contact));
     }
     forces.replace(active.iter().map(|state| {
         let Contact { ids, kind, .. } = contacts[state.contact as usize];

@@ -59,7 +59,11 @@ struct PairQuery<'a> {
 impl PairQuery<'_> {
     #[inline(always)]
     fn gap_of<const KIND: ContactKind>(&self, ids: [u32; 4]) -> f32 {
-        if self.may_be_near_at_rest { self.rest_gap.gap_of::<KIND>(ids) } else { self.rest_gap.gap }
+        if self.may_be_near_at_rest {
+            self.rest_gap.gap_of::<KIND>(ids)
+        } else {
+            self.rest_gap.full_gap_of::<KIND>(ids)
+        }
     }
 }
 

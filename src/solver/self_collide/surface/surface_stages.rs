@@ -17,12 +17,13 @@
 
 use crate::math::wide4::xyz;
 use crate::math::{max, min};
+use crate::model::maps::Map;
 use crate::solver::collide;
 use crate::solver::integrate::momentum;
 use crate::solver::particle_stage::interleaved;
-use crate::solver::self_collide::surface::contact_solver;
+use crate::solver::self_collide::surface::contact_solver::{self, LayerFriction};
 use crate::solver::self_collide::surface::detection::{DetectedContacts, Detector};
-use crate::solver::self_collide::surface::rest_gap::RestGap;
+use crate::solver::self_collide::surface::rest_gap::{PaintedGap, RestGap};
 use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
 use crate::solver::self_collide::surface::swept_particles::{SweptParticles, Widened};
 use crate::solver::self_collide::surface::{non_crossing, speculative};
@@ -60,10 +61,17 @@ impl World {
         }
     }
 
-    /// Gap between layers [m]: `self_distance`, or the thickness of the material if that is 0.
-    fn layer_gap(&self) -> f32 {
+    /// Gap between layers at scale 1 [m]: `self_distance`, or the thickness of the material if that
+    /// is 0.
+    fn unscaled_layer_gap(&self) -> f32 {
         let own = self.settings.self_distance;
-        let gap = if own > 0.0 { own } else { self.material.thickness };
+        if own > 0.0 { own } else { self.material.thickness }
+    }
+
+    /// Largest gap between layers [m].
+    fn layer_gap(&self) -> f32 {
+        let [_, largest] = self.maps.range(Map::Thickness);
+        let gap = self.unscaled_layer_gap() * largest;
         // Not `clamp`: the text of its panic message would add 18 kB to the WebAssembly module.
         min(max(gap, MIN_GAP * self.mean_edge), MAX_GAP * self.mean_edge)
     }
@@ -71,7 +79,19 @@ impl World {
 
 /// The rest shape of the cloth, for gaps of pairs.
 fn rest_gap<'a>(world: &'a World, pieces: &'a [u32], gap: f32) -> RestGap<'a> {
-    RestGap { mesh: &world.mesh, rest: &world.rest, pieces, mean_edge: world.mean_edge, gap }
+    let painted = world.maps.get(Map::Thickness).map(|scales| PaintedGap {
+        scales,
+        gap: world.unscaled_layer_gap(),
+        least: MIN_GAP * world.mean_edge,
+    });
+    RestGap {
+        mesh: &world.mesh,
+        rest: &world.rest,
+        pieces,
+        mean_edge: world.mean_edge,
+        gap,
+        painted,
+    }
 }
 
 impl SurfaceCollision {
@@ -300,7 +320,11 @@ pub(crate) fn detect_contacts(world: &mut World) {
 
 /// Solves the contacts of a substep: impulses, friction, penetration, untangling.
 pub(crate) fn solve_contacts(world: &mut World) {
-    let (scheme, friction) = (world.scheme(), world.material.friction);
+    let scheme = world.scheme();
+    let friction = LayerFriction {
+        coefficient: world.material.friction,
+        scales: world.maps.get(Map::Friction),
+    };
     let Some(mut surface) = world.surface_collision.take() else {
         return;
     };
