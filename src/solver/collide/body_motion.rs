@@ -115,7 +115,7 @@ impl BodyMotion {
     }
 
     /// The box, in the frame of the body, around a box.
-    fn to_local(&self, bounds: &Aabb) -> Aabb {
+    fn box_in_frame(&self, bounds: &Aabb) -> Aabb {
         let (center, half) = (self.start.point_to_local(bounds.center()), bounds.half_extents());
         let size = self.start.axes.map(|axis| axis.abs().dot(half));
         let half = Vec3::from_array(size);
@@ -158,9 +158,11 @@ impl BodyMotion {
                 low: bounds.low + low.min(Vec3::ZERO),
                 high: bounds.high + high.max(Vec3::ZERO),
             };
-            let near = deformation.motions_near(self.to_local(&space).expanded(self.margin));
-            let ways = self
-                .to_local(&Aabb { low: low + self.start.origin, high: high + self.start.origin });
+            let near = deformation.motions_near(self.box_in_frame(&space).expanded(self.margin));
+            let ways = self.box_in_frame(&Aabb {
+                low: low + self.start.origin,
+                high: high + self.start.origin,
+            });
             return near.map_or(0.0, |own| {
                 (ways.low - own.high).abs().max((ways.high - own.low).abs()).length()
             });
