@@ -124,7 +124,6 @@ impl MovingVertices<'_> {
     }
 
     /// The box of both ends of the way of some vertices.
-    #[inline(always)]
     fn swept<const COUNT: usize>(&self, vertices: [u32; COUNT]) -> Aabb {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for v in vertices {
@@ -300,6 +299,7 @@ impl MovingSurface {
 
     /// Poses parts at the time `end` of the tick, with the motion in the part of length `length` that
     /// ends then.
+    #[inline(never)]
     fn pose_parts(
         &mut self,
         vertices: MovingVertices<'_>,

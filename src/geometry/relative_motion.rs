@@ -45,7 +45,7 @@ pub(crate) struct PointMotion {
 
 impl PointMotion {
     /// Returns how far the point moves relative to a part, at most [m].
-    #[inline(always)]
+    #[inline(never)]
     pub fn reach(&self, part: &PartMotion) -> f32 {
         let reach = |k: usize| {
             (self.ways[k] - part.mean * self.shares[k]).length() + part.spread * self.shares[k]
@@ -78,7 +78,7 @@ impl RigidStep {
     }
 
     /// Returns where the motion takes a point [m].
-    #[inline(always)]
+    #[inline(never)]
     pub fn carry(&self, x: Vec3) -> Vec3 {
         let [from, to] = self.origins;
         match &self.axes {

@@ -230,6 +230,7 @@ impl CandidateTriangles<'_> {
 
     /// Returns the first point where the path of a point between two positions crosses the surface;
     /// `None` if it crosses no candidate. Its normal is that on the side of `from`.
+    #[inline(never)]
     pub fn first_crossing(&self, from: Vec3, to: Vec3) -> Option<SurfacePoint> {
         let is_moving = !self.surface.before.is_empty();
         let mut first: Option<(f32, SurfacePoint)> = None;
@@ -275,6 +276,7 @@ impl CandidateTriangles<'_> {
     /// Returns the closest place of the surface to a point and the direction from there to it;
     /// `None` if it is `max_distance` [m] away or more. A point on the surface gets the normal on
     /// the side of `from`, where it was at the start of the substep.
+    #[inline(never)]
     pub fn closest(&self, point: Vec3, from: Vec3, max_distance: f32) -> Option<SurfacePoint> {
         let mut least = (max_distance * max_distance, None);
         for (number, [triangle, before]) in self.triangles() {

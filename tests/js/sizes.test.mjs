@@ -11,10 +11,10 @@ const read = (name) => readFile(new URL(name, home));
 const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** The largest size of each file with gzip [B]. */
-const MAX_SIZES = { "raw_bg.wasm": 415_000, "plain_bg.wasm": 379_800, "code.js": 483_600 };
+const MAX_SIZES = { "raw_bg.wasm": 443_900, "plain_bg.wasm": 407_700, "code.js": 514_200 };
 
 /** The largest size of all scripts that every page loads, with gzip [B]. */
-const MAX_SCRIPT_SIZE = 14_600;
+const MAX_SCRIPT_SIZE = 14_650;
 
 /** Scripts that only some pages load. */
 const OPTIONAL = /^(bytes|inline|no-wasm|heap|code|three|three-with|pointers|react)\.js$/;
