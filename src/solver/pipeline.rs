@@ -6,10 +6,10 @@
 //! ├─ rebase       the origin moves along with the cloth
 //! ├─ Colliders    number of substeps         Limit  store the velocities at the start of the tick
 //! ├─ Colliders    swept broad phase          Pairs  candidate pairs of surface collision
-//! ├─ Forces       gravity + air ─▶ acceleration     Tethers  slack
+//! ├─ Forces       gravity + air ─▶ acceleration, closed pieces         Tethers  slack
 //! ├─ substep × substeps
 //! │  ├─ Predict       x ← x + displacement
-//! │  ├─ Hold          pins and grabs move their particles
+//! │  ├─ Hold          pins and grabs move their particles               Forces  pressure
 //! │  ├─ Bend          first implicit solve   Stretch  start of damping, particle layout
 //! │  ├─ sweep × iterations
 //! │  │    even   Stretch ▶ Tethers ▶ Shear ▶ Bend        (forward; the first by line solver)
@@ -42,7 +42,8 @@
 
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{
-    forces, impact_momentum, piece_momentum, predict, recover, sleep, time_step, velocities,
+    forces, impact_momentum, piece_momentum, predict, pressure, recover, sleep, time_step,
+    velocities,
 };
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::rebase;
@@ -113,6 +114,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     timed!(world, Colliders, collide::begin_tick(world));
     timed!(world, Pairs, surface_stages::begin_tick(world));
     timed!(world, Forces, forces::compute_acceleration(world));
+    timed!(world, Forces, pressure::begin_tick(world));
     if world.settings.tethers {
         timed!(world, Tethers, tether_slack::update(world));
     } else {
@@ -170,6 +172,7 @@ fn advance_clock(world: &mut World) {
 fn run_substep(world: &mut World, number: u32) {
     timed!(world, Predict, predict::predict_positions(world));
     timed!(world, Hold, targets::apply(world, number));
+    timed!(world, Forces, pressure::apply(world));
     if world.settings.tethers && !world.is_pin_stretch_current {
         timed!(world, Tethers, tethers::refresh_pin_positions(world));
     }

@@ -450,6 +450,7 @@ impl World {
     pub fn label_pieces(&mut self) {
         let (mesh, TickScratch { pieces, piece_stack, .. }) = (&self.mesh, &mut self.scratch);
         self.pieces = mesh.label_pieces(&mut pieces.label, piece_stack);
+        pieces.outward.clear();
         pieces.members.sort(mesh, &pieces.label, self.pieces as usize, |piece| piece);
     }
 

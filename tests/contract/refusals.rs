@@ -91,6 +91,7 @@ fn errors_of_settings_material_and_wind_name_the_invalid_field() {
         ("settings.max_stretch", |s| s.max_stretch = f32::INFINITY),
         ("settings.self_distance", |s| s.self_distance = -0.01),
         ("settings.sleep_speed", |s| s.sleep_speed = -0.01),
+        ("settings.pressure", |s| s.pressure = f32::NEG_INFINITY),
         ("settings.self_distance", |s| {
             (s.self_collision, s.self_distance) = (SelfCollision::Particles, 0.1001);
         }),

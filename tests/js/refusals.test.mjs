@@ -86,6 +86,7 @@ const settings = {
   maxStretch: [...NOT_NUMBERS, -1, Infinity],
   selfDistance: [...NOT_NUMBERS, -1, Infinity],
   sleepSpeed: [...NOT_NUMBERS, -1, Infinity],
+  pressure: [...NOT_NUMBERS, Infinity],
   gravity: NOT_FINITE,
   tethers: [0, 1, null, "true"],
   tearing: [0, 1, null, "true"],

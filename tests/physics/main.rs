@@ -18,6 +18,7 @@ mod material_laws;
 mod momentum;
 mod moving_frame;
 mod plastic_bending;
+mod pressure;
 mod random_scenes;
 mod resolution_independence;
 mod sleep;

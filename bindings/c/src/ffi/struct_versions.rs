@@ -36,7 +36,7 @@ macro_rules! versioned_structs {
 
 versioned_structs! {
     // Struct: last field of the first release, last field now, `init` function.
-    MuslinSettings: tearing[4], sleep_speed[4], "muslin_settings_init";
+    MuslinSettings: tearing[4], pressure[4], "muslin_settings_init";
     MuslinMaterial: yield_creep[4], yield_weakening[4], "muslin_material_init";
     MuslinWind: seed[4], seed[4], "muslin_wind_init";
     MuslinColliderDesc: restitution[4], heights[size_of::<*const f32>()],
