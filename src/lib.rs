@@ -112,6 +112,7 @@ pub use crate::state::colliders::{Collider, Impulse};
 pub use crate::state::events::{Event, EventKind};
 pub use crate::state::grabs::Grab;
 pub use crate::state::settings::{SelfCollision, Settings};
+pub use crate::state::sewing::{SewDesc, SewKind};
 pub use crate::state::wind::{Wind, WindModel};
 pub use glam;
 

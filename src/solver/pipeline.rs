@@ -52,7 +52,7 @@ use crate::solver::self_collide::surface::{contact_damping, crossing_report, sur
 use crate::solver::stage::Stage;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{
-    damping, distance, line_solver, mesh_kernel, strain_limit, tether_slack, tethers,
+    damping, distance, line_solver, mesh_kernel, sewn_pairs, strain_limit, tether_slack, tethers,
 };
 use crate::solver::topology::tear;
 use crate::solver::world::World;
@@ -120,6 +120,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     } else {
         world.tether_slack = f32::INFINITY;
     }
+    sewn_pairs::begin_tick(world);
     for substep in 0..world.substeps {
         run_substep(world, substep);
     }
@@ -132,6 +133,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     if world.settings.tearing && world.material.tear_stretch > 0.0 {
         timed!(world, Tear, tear::tear_overstretched(world));
     }
+    sewn_pairs::end_tick(world);
     let is_bounded = world.settings.max_stretch > 0.0;
     if is_bounded || !world.anchors.is_empty() {
         timed!(world, Colliders, begin_last_phase(world));
@@ -140,14 +142,17 @@ pub(crate) fn tick(world: &mut World) -> bool {
             timed!(world, Limit, strain_limit::enforce(world));
         }
         timed!(world, Hold, anchors::project_at_end(world));
+        timed!(world, Stretch, sewn_pairs::join(world));
         timed!(world, SelfContacts, surface_stages::enforce_non_crossing_at_tick_end(world));
         timed!(world, SelfContacts, piece_momentum::end_last_phase(world));
+        timed!(world, Stretch, sewn_pairs::join_motion(world));
         if is_bounded {
             timed!(world, Limit, strain_limit::report(world));
         }
         // Corrections of particles near the largest f32 overflow, so check once more.
         timed!(world, Guard, recover::restore_invalid(world));
     }
+    sewn_pairs::report(world);
     timed!(world, Contacts, collide::inside::report(world));
     timed!(world, SelfContacts, crossing_report::report(world));
     targets::finish_tick(world);
@@ -178,6 +183,7 @@ fn run_substep(world: &mut World, number: u32) {
     }
     distance::reset(world);
     timed!(world, Bend, bend::solve_first(world));
+    timed!(world, Stretch, sewn_pairs::begin_substep(world));
     timed!(world, Stretch, damping::apply(world));
     timed!(world, Stretch, mesh_kernel::gather(world));
     for iteration in 0..world.settings.iterations {
@@ -188,6 +194,7 @@ fn run_substep(world: &mut World, number: u32) {
         timed!(world, Limit, strain_limit::project_once(world));
     }
     timed!(world, Bend, mesh_kernel::scatter(world));
+    timed!(world, Stretch, sewn_pairs::join(world));
     timed!(world, Pairs, particle_contacts::refresh_pairs(world));
     timed!(world, SelfContacts, piece_momentum::begin_particle_contacts(world));
     timed!(world, SelfContacts, particle_contacts::solve(world));
@@ -198,9 +205,11 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Pairs, surface_stages::detect_contacts(world));
     timed!(world, SelfContacts, surface_stages::solve_contacts(world));
     timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
+    timed!(world, Stretch, sewn_pairs::join(world));
     timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, contact_damping::damp_velocities(world));
     timed!(world, Velocities, impact_momentum::restore(world));
+    timed!(world, Stretch, sewn_pairs::join_motion(world));
     time_step::end_substep(world);
 }
 
@@ -224,4 +233,5 @@ fn run_iteration(world: &mut World, iteration: u32) {
         timed!(world, Shear, distance::solve(world, LinkKind::Shear, SweepOrder::Forward));
         timed!(world, Bend, bend::solve_in_sweep(world, SweepOrder::Forward, iteration));
     }
+    timed!(world, Stretch, sewn_pairs::project(world));
 }

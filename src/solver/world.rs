@@ -57,6 +57,7 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::Pose;
 use crate::state::settings::Settings;
+use crate::state::sewing::Sewing;
 use crate::state::violations::Violations;
 use crate::state::wind::Wind;
 use glam::Vec3;
@@ -138,6 +139,8 @@ pub(crate) struct World {
     /// Animated targets [m] with a max distance and a backstop. Written by the host, by
     /// `kinematic::targets`, by `tick_targets`, and by tears and cuts.
     pub anchors: AnchorConstraints,
+    /// Particles that are sewn together. Written by the host and by `stretch::sewn_pairs`.
+    pub sewing: Sewing,
     /// Absolute pose [m] of the body that the cloth follows when that body teleports. Written by
     /// `cloth::teleport`.
     pub reference_pose: Pose,

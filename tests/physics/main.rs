@@ -21,5 +21,6 @@ mod plastic_bending;
 mod pressure;
 mod random_scenes;
 mod resolution_independence;
+mod sewing;
 mod sleep;
 mod strain_limit;

@@ -6,6 +6,7 @@ import {
   check,
   checkKeys,
   toBoolean,
+  toChoiceIndex,
   toFloat32Array,
   toNumber,
   toUint32,
@@ -421,6 +422,16 @@ export class Cloth {
     const live = rawOf(this);
     const line = [toVector(from, "from"), toVector(to, "to")];
     live.crease(Float64Array.from(line.flat()), toNumber(angle, "angle"));
+  }
+
+  sew(pairs, options = {}) {
+    const live = rawOf(this);
+    checkKeys(options, "options", ["speed", "kind", "tearForce"]);
+    const { speed = 0.5, kind = "weld", tearForce = 0 } = options;
+    const list = toUint32Array(Array.isArray(pairs) ? pairs.flat() : pairs, "pairs");
+    check(list.length % 2 === 0, "pairs", "hold two particles per pair");
+    const isStitch = toChoiceIndex(kind, "kind", ["weld", "stitch"]) === 1;
+    live.sew(list, toNumber(speed, "speed"), isStitch, toNumber(tearForce, "tearForce"));
   }
 
   tearEdge(particleA, particleB) {

@@ -460,3 +460,24 @@ export interface ColliderDesc {
   /** Heightfield: `columns` × `rows` heights [m], row by row along x. They are copied. */
   heights?: Float32Array | Float64Array | readonly number[];
 }
+
+/** How `sew` joins pairs of particles. */
+export interface SewOptions {
+  /** Speed at which the distance of each pair falls to zero [m/s]; above 0. @defaultValue 0.5 */
+  speed?: number;
+  /**
+   * What joins the particles. A weld is as if woven in one piece: it never tears, and normals are
+   * smooth across it. A stitch is a thread that tears under more than `tearForce`, and keeps the
+   * normals of both sides apart.
+   *
+   * @defaultValue "weld"
+   */
+  kind?: "weld" | "stitch";
+  /**
+   * Force on one pair above which a stitch tears [N], as the mean over a tick; at least 0, 0 means
+   * never. A weld ignores it.
+   *
+   * @defaultValue 0
+   */
+  tearForce?: number;
+}

@@ -10,18 +10,21 @@
 //! force nor a net torque. It acts in every substep on the predicted positions, where the links
 //! answer it: evaluated once per tick, it would lag behind a piece that spins, and turn it.
 //!
-//! A piece is closed if every edge of its triangles has two of them, wound consistently. Its
-//! outside is where the volume of its rest shape is positive, or where the windings say if that
-//! volume is zero.
+//! A piece is closed if every edge of its triangles has two of them, wound consistently, or is a
+//! border between two particles that are sewn to closed pieces. Its outside is where the volume of
+//! its rest shape is positive, or where the windings say if that volume is zero. For a sewn piece
+//! that is the volume between it and the middle of all pieces that are sewn together.
 //!
-//! Reads settings, mesh, rest positions, piece labels and predicted positions; writes positions,
-//! `scratch.pieces.outward`, and the scratch list `relative_wind`, which is free at that time.
+//! Reads settings, mesh, rest positions, sewn pairs, piece labels and predicted positions; writes positions,
+//! `scratch.pieces.outward`, `scratch.piece_groups`, and the scratch list `relative_wind`, which are
+//! free at that time.
 //! Invariant: the forces on a closed piece that nothing holds add up to zero but for rounding, also
 //! where `max_displacement` limits them: the whole piece then gets a lower pressure.
 
 use crate::math::max;
 use crate::mesh::{Mesh, NONE, next_corner, triangle_of};
-use crate::solver::world::World;
+use crate::solver::topology::piece_labels::PieceLabels;
+use crate::solver::world::{TickScratch, World};
 use glam::{DVec3, Vec3};
 
 /// Volume of a rest shape, over the power 3/2 of its area, below which it counts as zero: rounding
@@ -49,24 +52,50 @@ impl World {
     }
 }
 
+/// Closed by its own triangles, or with the help of sewn borders; the sign comes later.
+const WHOLE: f32 = 1.0;
+const SEWN: f32 = 2.0;
+
 /// Sets the side on which the outside of each piece is; 0 for pieces that are not closed.
 #[inline(never)]
 fn find_closed_pieces(world: &mut World) {
-    let (mesh, rest, pieces) = (&world.mesh, &world.rest, &mut world.scratch.pieces);
-    pieces.outward.resize(world.pieces as usize, 1.0);
+    let World { mesh, rest, sewing, .. } = world;
+    let TickScratch { pieces: PieceLabels { label, outward, .. }, piece_groups, .. } =
+        &mut world.scratch;
+    outward.resize(world.pieces as usize, WHOLE);
     for edge in 0..3 * mesh.triangles.len() as u32 {
-        if !has_consistent_neighbor(mesh, edge) {
-            pieces.outward[pieces.label[triangle_of(edge)] as usize] = 0.0;
+        if has_consistent_neighbor(mesh, edge) {
+            continue;
+        }
+        let ends = [mesh.vertex(edge), mesh.vertex(next_corner(edge))];
+        let is_sewn = mesh.across(edge) == NONE && ends.iter().all(|end| sewing.is_joined(*end));
+        let state = &mut outward[label[triangle_of(edge)] as usize];
+        *state = if is_sewn && *state != 0.0 { SEWN } else { 0.0 };
+    }
+    piece_groups.reset(world.pieces);
+    let piece = |particle: u32| label[triangle_of(mesh.corner_of[particle as usize])];
+    let mut has_opened = true;
+    while core::mem::take(&mut has_opened) {
+        for pair in sewing.pairs.iter().filter(|pair| pair.is_closed()) {
+            let [a, b] = pair.particles.map(piece);
+            for (own, other) in [(a as usize, b as usize), (b as usize, a as usize)] {
+                if outward[own] == SEWN && outward[other] == 0.0 {
+                    (outward[own], has_opened) = (0.0, true);
+                }
+            }
+            if outward[a as usize] == SEWN && outward[b as usize] == SEWN {
+                piece_groups.join(a, b);
+            }
         }
     }
-    let mut first = 0;
     for piece in 0..world.pieces {
-        while pieces.label[first] != piece {
-            first += 1;
-        }
-        let outward = &mut pieces.outward[piece as usize];
-        if *outward != 0.0 && has_negative_volume(mesh, rest, &pieces.label, first) {
-            *outward = -1.0;
+        let state = &mut outward[piece as usize];
+        if *state != 0.0 {
+            let root = piece_groups.root(piece);
+            let is_grouped = |at: usize| piece_groups.root(label[at]) == root;
+            let is_own = |at: usize| label[at] == piece;
+            let is_inwards = has_negative_volume(mesh, rest, &is_grouped, &is_own);
+            *state = if is_inwards { -1.0 } else { 1.0 };
         }
     }
 }
@@ -78,15 +107,24 @@ fn has_consistent_neighbor(mesh: &Mesh, edge: u32) -> bool {
     next != NONE && (3 * next..3 * next + 3).any(is_opposite)
 }
 
-/// Whether the windings of the piece of triangle `first`, the first of its piece, enclose a
-/// negative volume at rest.
-fn has_negative_volume(mesh: &Mesh, rest: &[Vec3], label: &[u32], first: usize) -> bool {
+/// Whether the triangles that `is_own` selects face the middle of those that `is_grouped` selects, at
+/// rest: whether they and the middle enclose a negative volume.
+fn has_negative_volume(
+    mesh: &Mesh,
+    rest: &[Vec3],
+    is_grouped: &dyn Fn(usize) -> bool,
+    is_own: &dyn Fn(usize) -> bool,
+) -> bool {
     let corners =
         |at: usize| mesh.triangles[at].map(|v| rest[mesh.source[v as usize] as usize].as_dvec3());
-    let [center, ..] = corners(first);
+    let all = 0..mesh.triangles.len();
+    let (mut sum, mut count) = (DVec3::ZERO, 0.0);
+    for [a, b, c] in all.clone().filter(|at| is_grouped(*at)).map(corners) {
+        (sum, count) = (sum + a + b + c, count + 3.0);
+    }
     let (mut volume, mut area) = (0.0, 0.0);
-    for at in (first..label.len()).filter(|at| label[*at] == label[first]) {
-        let [a, b, c] = corners(at).map(|x| x - center);
+    for triangle in all.filter(|at| is_own(*at)).map(corners) {
+        let [a, b, c] = triangle.map(|x| x - sum / count);
         let double_area: DVec3 = (b - a).cross(c - a);
         volume += a.dot(double_area) / 6.0;
         area += 0.5 * double_area.length();

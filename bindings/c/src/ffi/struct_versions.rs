@@ -13,6 +13,7 @@ use crate::types::material::MuslinMaterial;
 use crate::types::mesh::MuslinMeshDesc;
 use crate::types::mesh_report::MuslinMeshReport;
 use crate::types::settings::MuslinSettings;
+use crate::types::sewing::MuslinSewDesc;
 use crate::types::skin::MuslinSkinDesc;
 use crate::types::stats::{MUSLIN_STAGE_SLOTS, MuslinStats};
 use crate::types::stream::{MuslinStream, MuslinWriteDesc};
@@ -48,6 +49,7 @@ versioned_structs! {
     MuslinChanges: index_count[4], index_count[4], "muslin_changes_init";
     MuslinStream: size[size_of::<usize>()], size[size_of::<usize>()], "muslin_stream_init";
     MuslinSkinDesc: reserved[4], reserved[4], "muslin_skin_desc_init";
+    MuslinSewDesc: tear_force[4], tear_force[4], "muslin_sew_desc_init";
     MuslinWriteDesc: offset[4], relative[4], "muslin_write_desc_init";
     MuslinStats: seconds[4 * MUSLIN_STAGE_SLOTS], crossings[4], "muslin_stats_init";
 }

@@ -16,6 +16,7 @@ use crate::math::{max, min};
 use crate::mesh::Mesh;
 use crate::solver::self_collide::surface::contact::{Contact, ContactKind};
 use crate::solver::self_collide::surface::split_separation::SPLIT_DISTANCE;
+use crate::state::sewing::Sewing;
 use glam::Vec3;
 
 /// Gap of a pair of one piece, as a share of its rest distance.
@@ -33,9 +34,24 @@ pub(crate) struct RestGap<'a> {
     pub mean_edge: f32,
     /// Gap between layers [m].
     pub gap: f32,
+    /// Particles that are sewn together do not collide.
+    pub sewing: &'a Sewing,
 }
 
 impl RestGap<'_> {
+    /// Whether a particle of one side of a pair is, or is sewn to, one of the other side.
+    #[inline(always)]
+    pub fn are_joined(&self, one: &[u32], other: &[u32]) -> bool {
+        one.iter().any(|id| other.contains(id))
+            || (!self.sewing.is_empty() && self.are_sewn(one, other))
+    }
+
+    #[inline(never)]
+    fn are_sewn(&self, one: &[u32], other: &[u32]) -> bool {
+        let leader = |id: &u32| self.sewing.leader(*id);
+        one.iter().any(|a| other.iter().any(|b| leader(a) == leader(b)))
+    }
+
     /// Rest distance from which on a pair keeps the full gap [m].
     pub fn full_gap_distance(&self) -> f32 {
         self.gap / REST_DISTANCE_SHARE

@@ -71,7 +71,8 @@ impl World {
 
 /// The rest shape of the cloth, for gaps of pairs.
 fn rest_gap<'a>(world: &'a World, pieces: &'a [u32], gap: f32) -> RestGap<'a> {
-    RestGap { mesh: &world.mesh, rest: &world.rest, pieces, mean_edge: world.mean_edge, gap }
+    let World { mesh, rest, mean_edge, sewing, .. } = world;
+    RestGap { mesh, rest, pieces, mean_edge: *mean_edge, gap, sewing }
 }
 
 impl SurfaceCollision {
