@@ -131,6 +131,8 @@ mod documents {
     struct TearingAndCuttingPage;
     #[doc = include_str!("../docs/manual/skins.md")]
     struct SkinsPage;
+    #[doc = include_str!("../docs/manual/sewing.md")]
+    struct SewingPage;
     #[doc = include_str!("../docs/manual/self-collision.md")]
     struct SelfCollisionPage;
     #[doc = include_str!("../docs/manual/guarantees.md")]

@@ -232,7 +232,7 @@ impl Cloth {
             max_stretch,
             mean_stretch,
             over_stretched: world.violations.over_stretched.count
-                + world.violations.open_seams.count,
+                + world.violations.open_pairs.count,
             held_inside: world.violations.held_inside.count,
             free_inside: world.violations.free_inside.count,
             crossings: world.violations.crossings.count,

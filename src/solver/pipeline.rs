@@ -6,14 +6,15 @@
 //! ├─ rebase       the origin moves along with the cloth
 //! ├─ Colliders    number of substeps         Limit  store the velocities at the start of the tick
 //! ├─ Colliders    swept broad phase          Pairs  candidate pairs of surface collision
-//! ├─ Forces       gravity + air ─▶ acceleration, closed pieces         Tethers  slack
+//! ├─ Forces       gravity + air ─▶ acceleration     Tethers  slack
 //! ├─ substep × substeps
 //! │  ├─ Predict       x ← x + displacement
-//! │  ├─ Hold          pins and grabs move their particles               Forces  pressure
+//! │  ├─ Hold          pins and grabs move their particles   Forces  pressure of closed pieces
 //! │  ├─ Bend          first implicit solve   Stretch  start of damping, particle layout
 //! │  ├─ sweep × iterations
 //! │  │    even   Stretch ▶ Tethers ▶ Shear ▶ Bend        (forward; the first by line solver)
 //! │  │    odd    Bend ▶ Shear ▶ Stretch ▶ Tethers        (backward)
+//! │  │    both    sewn pairs
 //! │  ├─ Stretch       end of damping         Limit  one sweep of strain limiting
 //! │  ├─ SelfContacts  momentum of several pieces, particle collision, then momentum of all
 //! │  ├─ Contacts      colliders: narrow phase and response
@@ -24,7 +25,7 @@
 //! │                   momentum of a free cloth that hits a collider
 //! ├─ Bend         folds (plasticity)         Colliders  colliders reach their end poses
 //! ├─ Guard        restore particles with invalid numbers
-//! ├─ Tear         split vertices of overstretched links
+//! ├─ Tear         split vertices of overstretched links; stitches
 //! ├─ last pass    Limit ▶ colliders ▶ Hold ▶ SelfContacts and colliders ▶ report ▶ Guard
 //! │                                                       (with a strain limit or anchors)
 //! ├─ report       particles inside colliders, layers that cross
@@ -202,10 +203,10 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Pairs, collide::broad_phase::refresh(world));
     timed!(world, Contacts, collide::solve(world, number));
     timed!(world, Hold, anchors::project(world, number));
+    timed!(world, Stretch, sewn_pairs::join(world));
     timed!(world, Pairs, surface_stages::detect_contacts(world));
     timed!(world, SelfContacts, surface_stages::solve_contacts(world));
     timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
-    timed!(world, Stretch, sewn_pairs::join(world));
     timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, contact_damping::damp_velocities(world));
     timed!(world, Velocities, impact_momentum::restore(world));

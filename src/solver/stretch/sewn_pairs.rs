@@ -21,6 +21,7 @@
 //! position and velocity bit for bit when a tick ends.
 
 use crate::math::columns::Columns;
+use crate::math::wide4::{Float4, xyz};
 use crate::mesh::{NONE, triangle_of};
 use crate::solver::particle_stage::access::ParticleAccess;
 use crate::solver::world::World;
@@ -71,11 +72,9 @@ pub(crate) fn project(world: &mut World) {
     }
 }
 
-/// Joins the closed pairs, after a stage that moved particles.
-pub(crate) fn join(world: &mut World) {
-    if !world.sewing.is_empty() {
-        join_particles(&mut world.sewing, &mut world.particles);
-    }
+/// Joins the closed pairs, after a stage that moved particles. Returns whether any particle moved.
+pub(crate) fn join(world: &mut World) -> bool {
+    !world.sewing.is_empty() && join_particles(&mut world.sewing, &mut world.particles)
 }
 
 /// Joins positions, velocities and histories of closed pairs.
@@ -109,7 +108,8 @@ fn project_particles(sewing: &mut Sewing, p: &mut dyn ParticleAccess) {
 /// Moves the members of each closed group to its centre of mass, or to its first held member, and
 /// counts how far.
 #[inline(never)]
-fn join_particles(sewing: &mut Sewing, p: &mut dyn ParticleAccess) {
+fn join_particles(sewing: &mut Sewing, p: &mut dyn ParticleAccess) -> bool {
+    let mut has_moved = false;
     let Sewing { members, closed, sums, pulls, .. } = sewing;
     sum_groups(members, closed, sums, &|i| p.particle(i));
     for (at, member) in members.iter().enumerate() {
@@ -118,8 +118,10 @@ fn join_particles(sewing: &mut Sewing, p: &mut dyn ParticleAccess) {
         if w > 0.0 && target != x {
             pulls[at] += (target - x) * (1.0 / w);
             p.set_position(*member as usize, target);
+            has_moved = true;
         }
     }
+    has_moved
 }
 
 /// Gives the members of each closed group its mean by mass, or that of its first held member.
@@ -229,7 +231,7 @@ pub(crate) fn report(world: &mut World) {
     });
     let first = open.next().map(|pair| pair.particles);
     let count = open.count() as u32 + u32::from(first.is_some());
-    if world.violations.open_seams.update(count)
+    if world.violations.open_pairs.update(count)
         && let Some([a, b]) = first
     {
         let mut event = world.event_at(EventKind::HeldApart, x.get(a as usize));
@@ -249,6 +251,23 @@ pub(crate) fn roll_back_partners(world: &mut World) -> bool {
             for end in [a, b].into_iter().filter(|end| world.particles.w[*end] > 0.0) {
                 has_moved |= x.get(end) != targets.get(end);
                 x.set(end, targets.get(end));
+            }
+        }
+    }
+    has_moved
+}
+
+/// Moves both particles of each closed pair that is apart to where the substep began, `start`. Returns
+/// whether any moved.
+pub(crate) fn roll_back_open(world: &mut World, start: &[Float4]) -> bool {
+    let (x, w) = (&mut world.particles.x, &world.particles.w);
+    let mut has_moved = false;
+    for pair in world.sewing.pairs.iter().filter(|pair| pair.is_closed()) {
+        let [a, b] = pair.particles.map(|particle| particle as usize);
+        if x.get(a) != x.get(b) {
+            for end in [a, b].into_iter().filter(|end| w[*end] > 0.0) {
+                has_moved |= x.get(end) != xyz(&start[end]);
+                x.set(end, xyz(&start[end]));
             }
         }
     }
