@@ -116,9 +116,7 @@ fn the_highest_pressure_leaves_a_light_balloon_finite_and_within_max_stretch() {
                 "{pressure} Pa: {stretch}"
             );
         }
-        while let Some(event) = cloth.next_event() {
-            panic!("{pressure} Pa: {event:?}");
-        }
+        assert_eq!(cloth.next_event(), None, "{pressure} Pa");
     }
 }
 
@@ -202,7 +200,7 @@ fn cushion(cells: u32, side: f32) -> MeshDesc {
         desc.positions.len() as u32 - 1
     };
     let front: Vec<u32> = (0..n * n).map(|i| index(i % n, i / n, 0.01)).collect();
-    let is_border = |i: u32| i % n == 0 || i % n == cells || i < n || i >= n * cells;
+    let is_border = |i: u32| i.is_multiple_of(n) || i % n == cells || i < n || i >= n * cells;
     let back: Vec<u32> = (0..n * n)
         .map(|i| if is_border(i) { front[i as usize] } else { index(i % n, i / n, -0.01) })
         .collect();

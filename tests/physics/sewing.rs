@@ -185,7 +185,6 @@ fn a_stitch_tears_above_its_force_and_says_so() {
         cloth.step(600);
         assert_joined(&cloth, &pairs[8..]);
         // The same load on a second stitch at the same place, once the first has come to rest.
-        let mut cloth = cloth;
         cloth.sew(&pairs[8..], &stitch(share * weight)).unwrap();
         cloth.step(120);
         events_of(&mut cloth, EventKind::StitchTorn)

@@ -129,6 +129,7 @@ enum Rounding {
     Exact,
 }
 
+#[inline(never)]
 fn remove_from_pieces(world: &mut World, rounding: Rounding) {
     if !compute_corrections(world) {
         return;
@@ -142,6 +143,7 @@ fn remove_from_pieces(world: &mut World, rounding: Rounding) {
     world.scratch.pieces.members = members;
 }
 
+#[inline(never)]
 fn remove_from_groups(world: &mut World, rounding: Rounding) {
     if !compute_corrections(world) {
         return;

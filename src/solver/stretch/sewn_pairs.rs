@@ -79,9 +79,13 @@ pub(crate) fn join(world: &mut World) -> bool {
 
 /// Joins positions, velocities and histories of closed pairs.
 pub(crate) fn join_motion(world: &mut World) {
-    if world.sewing.is_empty() {
-        return;
+    if !world.sewing.is_empty() {
+        join_all_columns(world);
     }
+}
+
+#[inline(never)]
+fn join_all_columns(world: &mut World) {
     join_particles(&mut world.sewing, &mut world.particles);
     let p = &mut world.particles;
     for columns in [&mut p.displacement, &mut p.v, &mut p.v_extrapolated] {
@@ -223,6 +227,7 @@ fn tear_stitches(world: &mut World) {
 }
 
 /// Counts the closed pairs that two held particles keep apart, and reports them once.
+#[inline(never)]
 pub(crate) fn report(world: &mut World) {
     let x = &world.particles.x;
     let mut open = world.sewing.pairs.iter().filter(|pair| {
@@ -242,6 +247,7 @@ pub(crate) fn report(world: &mut World) {
 
 /// Rolls back the partners of closed pairs of which one particle rolled back, see `strain_limit`, and
 /// returns whether any moved.
+#[inline(never)]
 pub(crate) fn roll_back_partners(world: &mut World) -> bool {
     let (x, targets) = (&mut world.particles.x, &world.scratch.rollback.positions);
     let mut has_moved = false;
@@ -276,6 +282,7 @@ pub(crate) fn roll_back_open(world: &mut World, start: &[Float4]) -> bool {
 
 /// Sorts the particles by groups of sewn pieces in `scratch.piece_groups`, and returns whether there
 /// is a group of several pieces.
+#[inline(never)]
 pub(crate) fn group_sewn_pieces(world: &mut World) -> bool {
     if world.pieces < 2 || world.sewing.is_empty() {
         return false;
@@ -290,6 +297,7 @@ pub(crate) fn group_sewn_pieces(world: &mut World) -> bool {
 }
 
 /// Joins the pieces that active pairs connect, in `scratch.piece_groups`.
+#[inline(never)]
 pub(crate) fn join_sewn_pieces(world: &mut World) {
     let (labels, mesh) = (&world.scratch.pieces, &world.mesh);
     for pair in world.sewing.pairs.iter().filter(|pair| pair.is_active()) {
