@@ -224,7 +224,8 @@
 
 /**
  * Pins, grabs or anchors stretch the cloth past `max_stretch`: `count` links exceed it, one of
- * them between `particle_a` and `particle_b`. Reported once, until the limit holds again.
+ * them between `particle_a` and `particle_b`. Reported once, until the limit holds again. Also for
+ * `count` sewn pairs whose particles are both held apart.
  */
 #define MUSLIN_EVENT_HELD_APART 5
 
@@ -255,6 +256,9 @@
  * One of the edges is between `particle_a` and `particle_b`. Reported once, until none does.
  */
 #define MUSLIN_EVENT_LAYERS_CROSS 9
+
+/** The stitch between `particle_a` and `particle_b` tore, see muslin_cloth_sew. */
+#define MUSLIN_EVENT_STITCH_TORN 10
 
 /** Position [m]: x y z; in 16-bit formats x y z 1. */
 #define MUSLIN_ATTRIBUTE_POSITION 0
@@ -314,6 +318,15 @@
 
 /** Length of `seconds` in MuslinStats. `stage_count` says how many entries are used. */
 #define MUSLIN_STAGE_SLOTS 31
+
+/** Value of `kind`: as if woven in one piece. It never tears, and normals are smooth across. */
+#define MUSLIN_SEW_WELD 0
+
+/**
+ * Value of `kind`: a thread. It tears under more than `tear_force`, and keeps the normals of both
+ * sides apart.
+ */
+#define MUSLIN_SEW_STITCH 1
 
 /**
  * Result of a call.
@@ -574,6 +587,20 @@ typedef struct MuslinSettings {
    * awake. See `asleep` of MuslinStats.
    */
   float sleep_speed;
+  /**
+   * Over-pressure inside closed pieces of the cloth [Pa]. Default 0. Finite.
+   *
+   * A piece is closed if each of its edges has two triangles, as in a ball or a cushion. The
+   * pressure is constant, whatever the volume; a negative one sucks the sides inwards, as a vacuum
+   * does. Outwards is where the volume of the rest shape is positive, whatever the winding. A
+   * piece that is torn or cut open loses its pressure at once. Open cloth, such as a grid, feels
+   * none.
+   *
+   * Links stretch under high pressure unless `max_stretch` limits them. Where the pressure alone
+   * would move a particle of a piece by more than `max_displacement` in a substep, all of that
+   * piece gets less.
+   */
+  float pressure;
 } MuslinSettings;
 
 /**
@@ -1131,6 +1158,21 @@ typedef struct MuslinWriteDesc {
    */
   uint32_t relative;
 } MuslinWriteDesc;
+
+/** How muslin_cloth_sew joins pairs of particles. Initialise it with muslin_sew_desc_init. */
+typedef struct MuslinSewDesc {
+  /** Set by muslin_sew_desc_init. */
+  uint32_t struct_size;
+  /** Speed at which the distance of each pair falls to zero [m/s]. Default 0.5. Above 0. */
+  float speed;
+  /** What joins the particles: MUSLIN_SEW_WELD (default) or MUSLIN_SEW_STITCH. */
+  uint32_t kind;
+  /**
+   * Force on one pair above which a stitch tears [N], as the mean over a tick; 0 = never.
+   * Default 0. At least 0. A weld ignores it.
+   */
+  float tear_force;
+} MuslinSewDesc;
 
 /**
  * A render mesh that follows a cloth. Initialise it with muslin_skin_desc_init, then set positions
@@ -2067,6 +2109,32 @@ MuslinStatus muslin_cloth_write_indices(MuslinCloth cloth,
                                         uint32_t base_vertex);
 
 /**
+ * Sews `pair_count` pairs of particles together: draws each pair together at `speed` of `desc`, and
+ * joins it when its distance is zero. `pairs` has two particles per pair.
+ *
+ * Joined particles have one position and one velocity after every tick, and move as one particle
+ * with the mass of both.
+ *
+ * - Particles may be in several pairs, as where three panels meet.
+ * - Pairs do not collide with each other. A held particle draws the other one to it.
+ * - Two held particles stay where they are; `over_stretched` of MuslinStats counts the pair and
+ *   MUSLIN_EVENT_HELD_APART reports it.
+ * - Particles, vertices and triangles stay as they are. A weld is invisible, since normals are
+ *   smooth across it.
+ * - A stitch that tears gives MUSLIN_EVENT_STITCH_TORN.
+ * - muslin_cloth_reset keeps the pairs and draws them together again from the rest shape.
+ *
+ * With `pair_count` 0, `pairs` may be NULL. With `desc` NULL the defaults apply.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE if two particles of a pair are equal, do not exist or have no
+ * triangle, if `pair_count` exceeds the number of particles, or for an invalid field of `desc`
+ */
+MuslinStatus muslin_cloth_sew(MuslinCloth cloth,
+                              const uint32_t *pairs,
+                              uint32_t pair_count,
+                              const MuslinSewDesc *desc);
+
+/**
  * Binds a render mesh, usually finer than the cloth, to the cloth as it is now; its lists are
  * copied. Destroy it with muslin_skin_destroy; it also ends with its cloth.
  *
@@ -2166,6 +2234,9 @@ MuslinStatus muslin_stream_init_sized(MuslinStream *stream, uint32_t struct_size
 /** Called by muslin_write_desc_init with the sizeof of MuslinWriteDesc. */
 MuslinStatus muslin_write_desc_init_sized(MuslinWriteDesc *desc, uint32_t struct_size);
 
+/** Called by muslin_sew_desc_init with the sizeof of MuslinSewDesc. */
+MuslinStatus muslin_sew_desc_init_sized(MuslinSewDesc *desc, uint32_t struct_size);
+
 /** Called by muslin_skin_desc_init with the sizeof of MuslinSkinDesc. */
 MuslinStatus muslin_skin_desc_init_sized(MuslinSkinDesc *desc, uint32_t struct_size);
 
@@ -2211,6 +2282,10 @@ static inline void muslin_mesh_desc_init(MuslinMeshDesc *desc) {
   (void)muslin_mesh_desc_init_sized(desc, (uint32_t)sizeof(MuslinMeshDesc),
                                     (uint32_t)sizeof(MuslinMaterial),
                                     (uint32_t)sizeof(MuslinSettings));
+}
+
+static inline void muslin_sew_desc_init(MuslinSewDesc *desc) {
+  (void)muslin_sew_desc_init_sized(desc, (uint32_t)sizeof(MuslinSewDesc));
 }
 
 static inline void muslin_skin_desc_init(MuslinSkinDesc *desc) {

@@ -160,6 +160,12 @@ inline MuslinWriteDesc write_desc() noexcept {
   return desc;
 }
 
+inline MuslinSewDesc sew_desc() noexcept {
+  MuslinSewDesc desc;
+  muslin_sew_desc_init(&desc);
+  return desc;
+}
+
 inline MuslinSkinDesc skin_desc() noexcept {
   MuslinSkinDesc desc;
   muslin_skin_desc_init(&desc);
@@ -457,6 +463,11 @@ class Cloth {
     const MuslinStatus status = muslin_cloth_tear_edge(cloth_, particle_a, particle_b);
     if (status == MUSLIN_STATUS_NOT_TORN) return {MUSLIN_STATUS_OK, false};
     return {status, true};
+  }
+  /** Sews pairs of particles together; `pairs` has two particles per pair. */
+  Done sew(const std::uint32_t *pairs, std::uint32_t pair_count,
+           const MuslinSewDesc &desc) noexcept {
+    return muslin_cloth_sew(cloth_, pairs, pair_count, &desc);
   }
   Done crease(MuslinVec3 from, MuslinVec3 to, float angle) noexcept {
     return muslin_cloth_crease(cloth_, from, to, angle);

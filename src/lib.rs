@@ -113,6 +113,7 @@ pub use crate::state::colliders::{Collider, Impulse};
 pub use crate::state::events::{Event, EventKind};
 pub use crate::state::grabs::Grab;
 pub use crate::state::settings::{SelfCollision, Settings};
+pub use crate::state::sewing::{SewDesc, SewKind};
 pub use crate::state::wind::{Wind, WindModel};
 pub use glam;
 
@@ -131,6 +132,8 @@ mod documents {
     struct TearingAndCuttingPage;
     #[doc = include_str!("../docs/manual/skins.md")]
     struct SkinsPage;
+    #[doc = include_str!("../docs/manual/sewing.md")]
+    struct SewingPage;
     #[doc = include_str!("../docs/manual/self-collision.md")]
     struct SelfCollisionPage;
     #[doc = include_str!("../docs/manual/guarantees.md")]

@@ -2,8 +2,8 @@
 
 use muslin::glam::{Quat, Vec2, Vec3};
 use muslin::{
-    Attribute, Cloth, ColliderDesc, GridDesc, Map, Material, MeshDesc, PinMode, Preset,
-    SelfCollision, Shape, Skin, Stream, VertexFormat, Wind, WriteDesc,
+    Attribute, Cloth, ColliderDesc, EventKind, GridDesc, Map, Material, MeshDesc, PinMode, Preset,
+    SelfCollision, SewDesc, SewKind, Shape, Skin, Stream, VertexFormat, Wind, WriteDesc,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -104,6 +104,47 @@ fn a_mesh_allocates_nothing_after_creation() {
     desc.settings.tearing = true;
     desc.material.tear_stretch = 1.2;
     assert_allocates_nothing(Cloth::mesh(&desc).unwrap(), 20);
+}
+
+/// A ball that bursts when a grab pulls at it, sewn and stitched to a strip.
+#[test]
+fn pressure_and_sewn_pairs_allocate_nothing() {
+    let mut desc: MeshDesc = common::skins::icosphere(2);
+    desc.positions.iter_mut().for_each(|x| *x *= 0.3);
+    let ball = desc.positions.len() as u32;
+    for i in 0..8 {
+        desc.positions.extend([0.0, 0.1].map(|z| Vec3::new(0.5, 0.1 * i as f32, z)));
+        let at = ball + 2 * i;
+        desc.indices.extend(if i < 7 {
+            vec![at, at + 1, at + 2, at + 2, at + 1, at + 3]
+        } else {
+            vec![]
+        });
+    }
+    (desc.settings.tearing, desc.settings.pressure) = (true, 100.0);
+    (desc.settings.max_stretch, desc.material.tear_stretch) = (0.1, 1.3);
+    for self_collision in [SelfCollision::None, SelfCollision::Particles] {
+        desc.settings.self_collision = self_collision;
+        let mut cloth = Cloth::mesh(&desc).unwrap();
+        let pairs: Vec<[u32; 2]> = (0..6).map(|i| [i, ball + 2 * i]).collect();
+        let stitch = SewDesc { kind: SewKind::Stitch, tear_force: 0.5, speed: 1.0 };
+        cloth.sew(&pairs[..4], &SewDesc::default()).unwrap();
+        cloth.sew(&pairs[4..], &stitch).unwrap();
+        let mut copies = [cloth.clone(), Cloth::restore(&cloth.save()).unwrap(), cloth];
+        for cloth in &mut copies {
+            let grab = cloth.grab_particle(20).unwrap();
+            let count = allocation_count(|| {
+                for tick in 0..120 {
+                    cloth.move_grab(grab, Vec3::new(0.02 * tick as f32, 0.0, 1.0)).unwrap();
+                    cloth.step(1);
+                }
+            });
+            assert_eq!(count, 0, "{self_collision:?}");
+            assert!(cloth.particle_count() > 178, "nothing tore");
+            let events = core::iter::from_fn(|| cloth.next_event());
+            assert!(events.into_iter().any(|event| event.kind == EventKind::StitchTorn));
+        }
+    }
 }
 
 #[test]

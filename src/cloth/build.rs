@@ -54,6 +54,7 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::Pose;
 use crate::state::settings::Settings;
+use crate::state::sewing::Sewing;
 use crate::state::violations::Violations;
 use crate::state::wind::Wind;
 use glam::{Vec2, Vec3};
@@ -234,6 +235,7 @@ fn build_world(
         attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),
         anchors: AnchorConstraints::default(),
+        sewing: Sewing::default(),
         reference_pose: Pose::ORIGIN,
         colliders: Arena::with_capacity(MAX_COLLIDERS),
         settings: settings.clone(),

@@ -34,6 +34,7 @@ mod postcard;
 pub(crate) mod query;
 mod ray_tree;
 mod save;
+mod sew;
 pub(crate) mod skin;
 mod state_hash;
 mod tear;
@@ -233,8 +234,10 @@ impl Cloth {
     /// descriptor, time zero, all mass scales 1. Removes all grabs, attachments, anchors, creases
     /// and events.
     ///
-    /// Settings, material, painted maps, wind and colliders stay as they are now; the impulses of colliders are
-    /// zero again. Handles of grabs and attachments become stale; handles of colliders stay valid.
+    /// Sewn pairs stay, open again, and are drawn together from the rest shape; so do torn ones.
+    /// Settings, material, painted maps, wind and colliders stay as they are now; the impulses of
+    /// colliders are zero again. Handles of grabs and attachments become stale; handles of colliders
+    /// stay valid.
     pub fn reset(&mut self) {
         // Building succeeded for this descriptor before, so it succeeds again.
         let Ok((mut fresh, _)) = with_float_env(|| self.desc.build_world()) else {
@@ -259,10 +262,12 @@ impl Cloth {
         fresh.grabs.clear();
         core::mem::swap(&mut fresh.attachments, &mut self.world.attachments);
         fresh.attachments.clear();
+        core::mem::swap(&mut fresh.sewing, &mut self.world.sewing);
         fresh.scratch.tear.reserve(fresh.settings.max_tears(fresh.triangle_capacity));
         self.world = fresh;
         self.world.reserve_contacts();
         with_float_env(|| {
+            self.world.restart_sewing();
             self.world.compute_masses();
             self.world.constraints.update_compliances(&self.world.material, &self.world.maps);
             self.world.rebuild_tethers();
@@ -378,6 +383,7 @@ impl Cloth {
     /// - tears, the most stretched edge first: for each, its split vertices, then the torn edge;
     /// - the exhausted reserve, if it cannot hold another tear;
     /// - detached pieces, ordered by their first triangle;
+    /// - torn stitches, in the order in which they were sewn;
     /// - links that pins or grabs hold past `max_stretch`;
     /// - particles inside colliders, held ones first;
     /// - layers that cross.

@@ -46,6 +46,7 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::{Pose, check_pose};
 use crate::state::settings::Settings;
+use crate::state::sewing::Sewing;
 use crate::state::violations::Violations;
 use crate::state::wind::Wind;
 use glam::Vec3;
@@ -85,6 +86,7 @@ struct SaveData<'a> {
     attachments: Cow<'a, Attachments>,
     grabs: Cow<'a, Grabs>,
     anchors: Cow<'a, AnchorConstraints>,
+    sewing: Cow<'a, Sewing>,
     warm_start: Cow<'a, WarmStart>,
     is_tangled: bool,
     reference_pose: Pose,
@@ -148,6 +150,7 @@ impl Cloth {
             attachments: Cow::Borrowed(&world.attachments),
             grabs: Cow::Borrowed(&world.grabs),
             anchors: Cow::Borrowed(&world.anchors),
+            sewing: Cow::Borrowed(&world.sewing),
             warm_start: Cow::Borrowed(&world.warm_start),
             is_tangled: world.is_tangled,
             reference_pose: world.reference_pose,
@@ -287,6 +290,9 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require(saved.anchors.are_valid(count))?;
     world.anchors = saved.anchors.into_owned();
     world.reserve_anchor_scratch();
+    require(saved.sewing.is_valid(count))?;
+    world.sewing = saved.sewing.into_owned();
+    world.sewing.rebuild();
     require(saved.warm_start.is_valid(count))?;
     world.warm_start = saved.warm_start.into_owned();
     world.warm_start.reserve(count);

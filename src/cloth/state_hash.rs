@@ -15,9 +15,9 @@ impl Cloth {
     /// every platform and for any number of threads.
     ///
     /// The hash covers positions, history, velocities, masses, triangles, folds with their
-    /// accumulated yield, painted maps, pins, attachments, anchors, grabs, colliders with their impulses,
-    /// tethers, warm-start impulses of self-collision, the flag for unresolved intersections,
-    /// origin, substeps that the last tick added, and time.
+    /// accumulated yield, painted maps, pins, attachments, anchors, sewn pairs, grabs, colliders with
+    /// their impulses, tethers, warm-start impulses of self-collision, the flag for unresolved
+    /// intersections, origin, substeps that the last tick added, and time.
     pub fn state_hash(&self) -> u64 {
         let (world, mut hasher) = (&self.world, StateHasher::new(0));
         let p = &world.particles;
@@ -70,6 +70,11 @@ impl Cloth {
                 anchor.backstop_distance,
                 anchor.backstop_radius,
             ]);
+        }
+        for pair in &world.sewing.pairs {
+            hasher.write_u32s(&pair.particles);
+            hasher.write_u32s(&[pair.kind as u32, pair.state as u32]);
+            hasher.write_f32s(&[pair.length, pair.speed, pair.tear_force]);
         }
         for grab in world.grabs.iter() {
             hasher.write_u32(grab.particle);

@@ -69,7 +69,8 @@ pub struct Stats {
     /// Mean strain of the stretch links.
     pub mean_stretch: f32,
     /// Number of links past [`Settings::max_stretch`](crate::Settings), which pins, grabs or
-    /// anchors hold apart; 0 without that limit.
+    /// anchors hold apart, 0 without that limit; plus the sewn pairs whose particles are both held
+    /// apart.
     pub over_stretched: u32,
     /// Number of particles that pins, attachments or grabs hold more than 0.1 mm inside a collider.
     /// Nothing is inside a triangle mesh, which has two sides.
@@ -230,7 +231,8 @@ impl Cloth {
             blend: self.blend(),
             max_stretch,
             mean_stretch,
-            over_stretched: world.violations.over_stretched.count,
+            over_stretched: world.violations.over_stretched.count
+                + world.violations.open_pairs.count,
             held_inside: world.violations.held_inside.count,
             free_inside: world.violations.free_inside.count,
             crossings: world.violations.crossings.count,

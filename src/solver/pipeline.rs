@@ -9,11 +9,12 @@
 //! ├─ Forces       gravity + air ─▶ acceleration     Tethers  slack
 //! ├─ substep × substeps
 //! │  ├─ Predict       x ← x + displacement
-//! │  ├─ Hold          pins and grabs move their particles
+//! │  ├─ Hold          pins and grabs move their particles   Forces  pressure of closed pieces
 //! │  ├─ Bend          first implicit solve   Stretch  start of damping, particle layout
 //! │  ├─ sweep × iterations
 //! │  │    even   Stretch ▶ Tethers ▶ Shear ▶ Bend        (forward; the first by line solver)
 //! │  │    odd    Bend ▶ Shear ▶ Stretch ▶ Tethers        (backward)
+//! │  │    both    sewn pairs
 //! │  ├─ Stretch       end of damping         Limit  one sweep of strain limiting
 //! │  ├─ SelfContacts  momentum of several pieces, particle collision, then momentum of all
 //! │  ├─ Contacts      colliders: narrow phase and response
@@ -24,7 +25,7 @@
 //! │                   momentum of a free cloth that hits a collider
 //! ├─ Bend         folds (plasticity)         Colliders  colliders reach their end poses
 //! ├─ Guard        restore particles with invalid numbers
-//! ├─ Tear         split vertices of overstretched links
+//! ├─ Tear         split vertices of overstretched links; stitches
 //! ├─ last pass    Limit ▶ colliders ▶ Hold ▶ SelfContacts and colliders ▶ report ▶ Guard
 //! │                                                       (with a strain limit or anchors)
 //! ├─ report       particles inside colliders, layers that cross
@@ -42,7 +43,8 @@
 
 use crate::model::links::LinkKind;
 use crate::solver::integrate::{
-    forces, impact_momentum, piece_momentum, predict, recover, sleep, time_step, velocities,
+    forces, impact_momentum, piece_momentum, predict, pressure, recover, sleep, time_step,
+    velocities,
 };
 use crate::solver::kinematic::{anchors, targets, tick_targets};
 use crate::solver::rebase;
@@ -51,7 +53,7 @@ use crate::solver::self_collide::surface::{contact_damping, crossing_report, sur
 use crate::solver::stage::Stage;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{
-    damping, distance, line_solver, mesh_kernel, strain_limit, tether_slack, tethers,
+    damping, distance, line_solver, mesh_kernel, sewn_pairs, strain_limit, tether_slack, tethers,
 };
 use crate::solver::topology::tear;
 use crate::solver::world::World;
@@ -113,11 +115,13 @@ pub(crate) fn tick(world: &mut World) -> bool {
     timed!(world, Colliders, collide::begin_tick(world));
     timed!(world, Pairs, surface_stages::begin_tick(world));
     timed!(world, Forces, forces::compute_acceleration(world));
+    timed!(world, Forces, pressure::begin_tick(world));
     if world.settings.tethers {
         timed!(world, Tethers, tether_slack::update(world));
     } else {
         world.tether_slack = f32::INFINITY;
     }
+    sewn_pairs::begin_tick(world);
     for substep in 0..world.substeps {
         run_substep(world, substep);
     }
@@ -130,6 +134,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
     if world.settings.tearing && world.material.tear_stretch > 0.0 {
         timed!(world, Tear, tear::tear_overstretched(world));
     }
+    sewn_pairs::end_tick(world);
     let is_bounded = world.settings.max_stretch > 0.0;
     if is_bounded || !world.anchors.is_empty() {
         timed!(world, Colliders, begin_last_phase(world));
@@ -138,14 +143,17 @@ pub(crate) fn tick(world: &mut World) -> bool {
             timed!(world, Limit, strain_limit::enforce(world));
         }
         timed!(world, Hold, anchors::project_at_end(world));
+        timed!(world, Stretch, sewn_pairs::join(world));
         timed!(world, SelfContacts, surface_stages::enforce_non_crossing_at_tick_end(world));
         timed!(world, SelfContacts, piece_momentum::end_last_phase(world));
+        timed!(world, Stretch, sewn_pairs::join_motion(world));
         if is_bounded {
             timed!(world, Limit, strain_limit::report(world));
         }
         // Corrections of particles near the largest f32 overflow, so check once more.
         timed!(world, Guard, recover::restore_invalid(world));
     }
+    sewn_pairs::report(world);
     timed!(world, Contacts, collide::inside::report(world));
     timed!(world, SelfContacts, crossing_report::report(world));
     targets::finish_tick(world);
@@ -170,11 +178,13 @@ fn advance_clock(world: &mut World) {
 fn run_substep(world: &mut World, number: u32) {
     timed!(world, Predict, predict::predict_positions(world));
     timed!(world, Hold, targets::apply(world, number));
+    timed!(world, Forces, pressure::apply(world));
     if world.settings.tethers && !world.is_pin_stretch_current {
         timed!(world, Tethers, tethers::refresh_pin_positions(world));
     }
     distance::reset(world);
     timed!(world, Bend, bend::solve_first(world));
+    timed!(world, Stretch, sewn_pairs::begin_substep(world));
     timed!(world, Stretch, damping::apply(world));
     timed!(world, Stretch, mesh_kernel::gather(world));
     for iteration in 0..world.settings.iterations {
@@ -185,6 +195,7 @@ fn run_substep(world: &mut World, number: u32) {
         timed!(world, Limit, strain_limit::project_once(world));
     }
     timed!(world, Bend, mesh_kernel::scatter(world));
+    timed!(world, Stretch, sewn_pairs::join(world));
     timed!(world, Pairs, particle_contacts::refresh_pairs(world));
     timed!(world, SelfContacts, piece_momentum::begin_particle_contacts(world));
     timed!(world, SelfContacts, particle_contacts::solve(world));
@@ -192,12 +203,14 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Pairs, collide::refresh_pairs(world, number));
     timed!(world, Contacts, collide::solve(world, number));
     timed!(world, Hold, anchors::project(world, number));
+    timed!(world, Stretch, sewn_pairs::join(world));
     timed!(world, Pairs, surface_stages::detect_contacts(world));
     timed!(world, SelfContacts, surface_stages::solve_contacts(world));
     timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
     timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, contact_damping::damp_velocities(world));
     timed!(world, Velocities, impact_momentum::restore(world));
+    timed!(world, Stretch, sewn_pairs::join_motion(world));
     time_step::end_substep(world);
 }
 
@@ -221,4 +234,5 @@ fn run_iteration(world: &mut World, iteration: u32) {
         timed!(world, Shear, distance::solve(world, LinkKind::Shear, SweepOrder::Forward));
         timed!(world, Bend, bend::solve_in_sweep(world, SweepOrder::Forward, iteration));
     }
+    timed!(world, Stretch, sewn_pairs::project(world));
 }

@@ -58,6 +58,7 @@ use crate::state::particles::Particles;
 use crate::state::pins::Pins;
 use crate::state::pose::Pose;
 use crate::state::settings::Settings;
+use crate::state::sewing::Sewing;
 use crate::state::violations::Violations;
 use crate::state::wind::Wind;
 use glam::Vec3;
@@ -139,6 +140,8 @@ pub(crate) struct World {
     /// Animated targets [m] with a max distance and a backstop. Written by the host, by
     /// `kinematic::targets`, by `tick_targets`, and by tears and cuts.
     pub anchors: AnchorConstraints,
+    /// Particles that are sewn together. Written by the host and by `stretch::sewn_pairs`.
+    pub sewing: Sewing,
     /// Absolute pose [m] of the body that the cloth follows when that body teleports. Written by
     /// `cloth::teleport`.
     pub reference_pose: Pose,
@@ -453,6 +456,7 @@ impl World {
     pub fn label_pieces(&mut self) {
         let (mesh, TickScratch { pieces, piece_stack, .. }) = (&self.mesh, &mut self.scratch);
         self.pieces = mesh.label_pieces(&mut pieces.label, piece_stack);
+        pieces.outward.clear();
         pieces.members.sort(mesh, &pieces.label, self.pieces as usize, |piece| piece);
     }
 

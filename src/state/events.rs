@@ -22,7 +22,8 @@ pub enum EventKind {
     /// Tearing stopped, because all `extra_particles` are used. Reported once.
     ReserveUsedUp = 4,
     /// Pins or grabs hold the cloth beyond `max_stretch`: `count` links exceed it, one of them
-    /// between `particle_a` and `particle_b`. Reported once until the limit holds again.
+    /// between `particle_a` and `particle_b`. Reported once until the limit holds again. Also for
+    /// `count` sewn pairs whose two particles are held apart.
     HeldApart = 5,
     /// A cut inserted `vertex` into the edge between `particle_a` and `particle_b`. If that edge is
     /// a UV seam, `vertex + 1` is the new vertex on its other side.
@@ -38,6 +39,8 @@ pub enum EventKind {
     /// both. One of the edges is between `particle_a` and `particle_b`. Reported once until none
     /// does.
     LayersCross = 9,
+    /// The stitch between `particle_a` and `particle_b` tore, see [`Cloth::sew`](crate::Cloth::sew).
+    StitchTorn = 10,
 }
 
 /// Something that happened in a tick. Fields that the kind does not mention are 0.
@@ -76,8 +79,9 @@ pub(crate) const MAX_EVENTS: usize = 1024;
 ///
 /// Order by tick. Within a tick: recoveries; tears, the most overstretched edge first, each
 /// preceded by the vertices that it split; `ReserveUsedUp`; detached pieces in the order of their
-/// first triangles; `HeldApart`; `HeldInside`; `FreeInside`; `LayersCross`. A cut reports the divided edges in its order, the opened edges,
-/// the split vertices, the pieces.
+/// first triangles; torn stitches in the order in which they were sewn; `HeldApart`; `HeldInside`;
+/// `FreeInside`; `LayersCross`. A cut reports the divided edges in its order, the opened edges, the
+/// split vertices, the pieces.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Events {
     queue: VecDeque<Event>,

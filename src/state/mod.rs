@@ -13,5 +13,6 @@ pub(crate) mod particles;
 pub(crate) mod pins;
 pub(crate) mod pose;
 pub(crate) mod settings;
+pub(crate) mod sewing;
 pub(crate) mod violations;
 pub(crate) mod wind;

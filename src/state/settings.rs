@@ -72,6 +72,18 @@ pub struct Settings {
     /// at nearly no cost, until something changes or touches it. Gusts, turbulence and the sine
     /// field keep it awake. See [`Stats::asleep`](crate::Stats).
     pub sleep_speed: f32,
+    /// Over-pressure inside closed pieces of the cloth [Pa], finite. Default: 0.
+    ///
+    /// A piece is closed if each of its edges has two triangles, as in a ball or a cushion, or if all
+    /// of its border is sewn ([`Cloth::sew`](crate::Cloth::sew)) to closed pieces. The pressure is
+    /// constant, whatever the volume; a negative one sucks the sides inwards, as a vacuum does. Outwards is where the volume of the rest shape is positive, whatever the winding. A
+    /// piece that is torn or cut open loses its pressure at once. Open cloth, such as a grid, feels
+    /// none.
+    ///
+    /// Links stretch under high pressure unless `max_stretch` limits them. Where the pressure alone
+    /// would move a particle of a piece by more than `max_displacement` in a substep, all of that
+    /// piece gets less.
+    pub pressure: f32,
 }
 
 /// How a cloth collides with itself. Several pieces of one mesh collide with each other in the same
@@ -119,6 +131,7 @@ impl Default for Settings {
             tearing: false,
             max_tears_per_tick: 8,
             sleep_speed: 0.0,
+            pressure: 0.0,
         }
     }
 }
@@ -151,6 +164,7 @@ impl Settings {
         )?;
         check(self.max_tears_per_tick >= 1, "settings.max_tears_per_tick", "be at least 1")?;
         check(not_negative(self.sleep_speed), "settings.sleep_speed", "be at least 0 and finite")?;
+        check(self.pressure.is_finite(), "settings.pressure", "be finite")?;
         Ok(())
     }
 

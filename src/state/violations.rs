@@ -29,6 +29,8 @@ impl Violation {
 pub(crate) struct Violations {
     /// Links that exceed `max_stretch`. Written by `strain_limit`.
     pub over_stretched: Violation,
+    /// Sewn pairs whose two particles are held apart. Written by `sewn_pairs`.
+    pub open_pairs: Violation,
     /// Particles that pins, attachments or grabs hold inside a collider. Written by
     /// `collide::inside`, as the next.
     pub held_inside: Violation,

@@ -52,6 +52,7 @@ static uint64_t hash(void) {
 #define BEGIN_MuslinColliderDesc muslin_collider_desc_init
 #define BEGIN_MuslinWriteDesc muslin_write_desc_init
 #define BEGIN_MuslinSkinDesc muslin_skin_desc_init
+#define BEGIN_MuslinSewDesc muslin_sew_desc_init
 
 static void init_functions(void) {
   union {
@@ -64,6 +65,7 @@ static void init_functions(void) {
     MuslinStream stream;
     MuslinWriteDesc write;
     MuslinSkinDesc skin;
+    MuslinSewDesc sew;
   } of;
   const uint32_t material = sizeof of.material, settings = sizeof of.settings;
   ROW(muslin_settings_init_sized, settings, VALUE, "`settings`", (NULL, sizeof of.settings));
@@ -78,6 +80,8 @@ static void init_functions(void) {
   ROW(muslin_stream_init_sized, struct_size, VALUE, "`struct_size`", (&of.stream, 4));
   ROW(muslin_write_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.write));
   ROW(muslin_write_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.write, 5000));
+  ROW(muslin_sew_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.sew));
+  ROW(muslin_sew_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.sew, 5));
   ROW(muslin_skin_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.skin));
   ROW(muslin_skin_desc_init_sized, struct_size, VALUE, "`struct_size`", (&of.skin, 5));
   ROW(muslin_grid_desc_init_sized, desc, VALUE, "`desc`", (NULL, sizeof of.grid, material, settings));
@@ -312,6 +316,18 @@ static void rays_grabs_tears_and_cuts(void) {
   ROW(muslin_cloth_tear_edge, particle_a, INDEX, "`particle_a`", (cloth, 400, 1));
   ROW(muslin_cloth_tear_edge, particle_b, INDEX, "`particle_b`", (cloth, 0, 400));
   ROW(muslin_cloth_tear_edge, particle_b, VALUE, "`particle_b`", (cloth, 0, 399));
+  BEGUN(MuslinSewDesc, stopped, speed, 0);
+  BEGUN(MuslinSewDesc, glued, kind, 2);
+  BEGUN(MuslinSewDesc, repelled, tear_force, -1);
+  const uint32_t pairs[] = {0, 1, 2, 3}, missing[] = {0, 1, 2, 400}, same[] = {0, 1, 3, 3};
+  OF_NONE(muslin_cloth_sew, (none, pairs, 2, NULL));
+  ROW(muslin_cloth_sew, pairs, VALUE, "`pairs`", (cloth, NULL, 2, NULL));
+  ROW(muslin_cloth_sew, pairs, VALUE, "`pairs[1]` must name particles", (cloth, missing, 2, NULL));
+  ROW(muslin_cloth_sew, pairs, VALUE, "`pairs[1]` must name two different", (cloth, same, 2, NULL));
+  ROW(muslin_cloth_sew, pair_count, VALUE, "`pair_count`", (cloth, pairs, 401, NULL));
+  ROW(muslin_cloth_sew, desc, VALUE, "`speed`", (cloth, pairs, 2, &stopped));
+  ROW(muslin_cloth_sew, desc, VALUE, "`kind`", (cloth, pairs, 2, &glued));
+  ROW(muslin_cloth_sew, desc, VALUE, "`tear_force`", (cloth, pairs, 2, &repelled));
   OF_NONE(muslin_cloth_crease, (none, zero, one, 1));
   ROW(muslin_cloth_crease, from, VALUE, "`from`", (cloth, not_finite, one, 1));
   ROW(muslin_cloth_crease, to, VALUE, "`to`", (cloth, zero, zero, 1));

@@ -156,6 +156,9 @@ void a_cloth_does_all_that_c_does() {
   cloth.crease({0, -2, 0}, {1, 2, 0}, 0.5f).value();
   CHECK(same.state_hash().value() != cloth.state_hash().value());
   CHECK(cloth.crease({0, 0, 0}, {0, 0, 0}, 0.5f).status() == MUSLIN_STATUS_BAD_VALUE);
+  const std::uint32_t pairs[] = {0, 19, 20, 39}, twice[] = {7, 7};
+  cloth.sew(pairs, 2, muslin::sew_desc()).value();
+  CHECK(cloth.sew(twice, 1, muslin::sew_desc()).status() == MUSLIN_STATUS_BAD_VALUE);
   cloth.unpin_all().value();
   cloth.reset().value();
   CHECK(cloth.stats().value().particles == 400);

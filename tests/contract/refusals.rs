@@ -2,7 +2,8 @@
 
 use muslin::glam::{Quat, Vec2, Vec3};
 use muslin::{
-    Cloth, ColliderDesc, Error, Grab, GridDesc, Material, MeshDesc, SelfCollision, Settings, Wind,
+    Cloth, ColliderDesc, Error, Grab, GridDesc, Material, MeshDesc, SelfCollision, Settings,
+    SewDesc, Wind,
 };
 
 /// A field name, and a function that makes this field invalid.
@@ -91,6 +92,7 @@ fn errors_of_settings_material_and_wind_name_the_invalid_field() {
         ("settings.max_stretch", |s| s.max_stretch = f32::INFINITY),
         ("settings.self_distance", |s| s.self_distance = -0.01),
         ("settings.sleep_speed", |s| s.sleep_speed = -0.01),
+        ("settings.pressure", |s| s.pressure = f32::NEG_INFINITY),
         ("settings.self_distance", |s| {
             (s.self_collision, s.self_distance) = (SelfCollision::Particles, 0.1001);
         }),
@@ -216,4 +218,32 @@ fn a_save_with_any_damaged_byte_is_refused() {
     for length in [0, 5, 19, 20, saved.len() - 1] {
         assert!(Cloth::restore(&saved[..length]).is_err(), "{length} bytes");
     }
+}
+
+#[test]
+fn wrong_pairs_and_sewing_options_are_refused_and_change_nothing() {
+    let desc = MeshDesc {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::splat(9.0)],
+        indices: vec![0, 1, 2],
+        ..MeshDesc::default()
+    };
+    let mut cloth = Cloth::mesh(&desc).unwrap();
+    let (hash, last) = (cloth.state_hash(), cloth.particle_count() - 1);
+    for (pairs, rule) in [
+        ([[0, 1], [1, last + 1]], "`pairs[1]` must name particles of the cloth"),
+        ([[0, 1], [2, 2]], "`pairs[1]` must name two different particles"),
+        ([[0, last], [1, 2]], "`pairs[0]` must name particles that have a triangle"),
+    ] {
+        assert_eq!(error_message(cloth.sew(&pairs, &SewDesc::default())), rule);
+    }
+    for (field, desc) in [
+        ("`speed`", SewDesc { speed: 0.0, ..SewDesc::default() }),
+        ("`speed`", SewDesc { speed: f32::INFINITY, ..SewDesc::default() }),
+        ("`tear_force`", SewDesc { tear_force: -1.0, ..SewDesc::default() }),
+        ("`tear_force`", SewDesc { tear_force: f32::NAN, ..SewDesc::default() }),
+    ] {
+        assert!(error_message(cloth.sew(&[[0, 1]], &desc)).contains(field), "{field}");
+    }
+    cloth.sew(&[], &SewDesc::default()).unwrap();
+    assert_eq!(cloth.state_hash(), hash);
 }

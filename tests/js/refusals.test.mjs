@@ -86,6 +86,7 @@ const settings = {
   maxStretch: [...NOT_NUMBERS, -1, Infinity],
   selfDistance: [...NOT_NUMBERS, -1, Infinity],
   sleepSpeed: [...NOT_NUMBERS, -1, Infinity],
+  pressure: [...NOT_NUMBERS, Infinity],
   gravity: NOT_FINITE,
   tethers: [0, 1, null, "true"],
   tearing: [0, 1, null, "true"],
@@ -180,6 +181,14 @@ const targets = new Float32Array(6);
 const NOT_ROTATIONS = [1, "x", null, [0, 0, 0], [0, 0, 0, 2], [0, 0, 0, NaN], [0, 0, 0, 0]];
 const NOT_PARTICLE_LISTS = [...NOT_LISTS, undefined, [1, -1], [1, 0.5], [1, 1000]];
 const PAIR = [0, 1];
+const pairsOf = (value, { cloth }) => cloth.sew(value);
+refuses("pairs", [...NOT_LISTS, undefined, [1], [1, -1, 2, 3], [[0, 1], [2, -1]]], pairsOf);
+refuses("pairs[0]", [[1, 1], [1000, 0]], pairsOf);
+refuses("pairs[1]", [[0, 1, 2, 1000], [[0, 1], [5, 5]]], pairsOf);
+refuses("speed", [...NOT_NUMBERS, 0, -1, Infinity], (value, { cloth }) => cloth.sew(PAIR, { speed: value }));
+refuses("kind", ["knot", 1, null], (value, { cloth }) => cloth.sew(PAIR, { kind: value }));
+refuses("tearForce", [...NOT_NUMBERS, -1, Infinity], (value, { cloth }) => cloth.sew(PAIR, { tearForce: value }));
+refuses("options", NOT_OBJECTS, (value, { cloth }) => cloth.sew(PAIR, value));
 refuses("particles", NOT_PARTICLE_LISTS, (value, { cloth }) => cloth.attach(value, [0, 0, 0]));
 refuses("position", [...NOT_FINITE, undefined], (value, { cloth }) => cloth.attach(PAIR, value));
 refuses("rotation", NOT_ROTATIONS, (value, { cloth }) => cloth.attach(PAIR, [0, 0, 0], value));

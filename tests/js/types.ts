@@ -197,6 +197,7 @@ cloth.addCollider({ shape: "torus" });
 function numberOf(event: ClothEvent): number {
   switch (event.kind) {
     case "edge-torn":
+    case "stitch-torn":
       return event.particleA + event.particleB;
     case "vertex-split":
       return event.vertex + event.source;

@@ -10,7 +10,7 @@ const COMMAND: &str = "MUSLIN_BLESS=1 cargo test -p muslin-c --test header";
 
 /// The source files with items of the header, in its order: types before the types that contain them,
 /// then functions by theme.
-const FILES: [&str; 35] = [
+const FILES: [&str; 37] = [
     "status.rs",
     "log.rs",
     "types/value.rs",
@@ -27,6 +27,7 @@ const FILES: [&str; 35] = [
     "types/changes.rs",
     "types/stream.rs",
     "types/stats.rs",
+    "types/sewing.rs",
     "types/skin.rs",
     "functions/library.rs",
     "functions/create.rs",
@@ -43,6 +44,7 @@ const FILES: [&str; 35] = [
     "functions/reference_frame.rs",
     "functions/views.rs",
     "functions/vertex_buffers.rs",
+    "functions/sewing.rs",
     "functions/skins.rs",
     "functions/save.rs",
     "functions/init.rs",

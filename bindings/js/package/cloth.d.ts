@@ -9,6 +9,7 @@ import type {
   MaterialLike,
   MeshDesc,
   Settings,
+  SewOptions,
   Wind,
 } from "./fields.js";
 import type { Attachment, Collider, Grab } from "./handles.js";
@@ -611,6 +612,24 @@ export class Cloth {
    * @throws if `to` equals `from`, or if `angle` is not from −3 to 3
    */
   crease(from: Vec3Like, to: Vec3Like, angle: number): void;
+  /**
+   * Sews pairs of particles together: draws each pair together and joins it when its distance is
+   * zero. Joined particles have one position and one velocity after every tick, and move as one
+   * particle with the mass of both.
+   *
+   * Particles may be in several pairs, and pairs do not collide with each other. A held particle
+   * draws the other one to it; two held ones stay where they are, which `overStretched` of the
+   * stats and the event `"held-apart"` report. A torn stitch gives the event `"stitch-torn"`.
+   * `reset` keeps the pairs and draws them together again from the rest shape.
+   *
+   * @param pairs particles a b a b …, or a list of pairs `[a, b]`
+   * @throws if the particles of a pair are equal, do not exist or have no triangle, or if an option
+   * is out of range
+   */
+  sew(
+    pairs: Uint32Array | Uint16Array | readonly number[] | readonly (readonly [number, number])[],
+    options?: SewOptions,
+  ): void;
   /**
    * Tears the edge between two neighbouring particles, as too much stretch would, and returns
    * whether it tore. It does not if it is a border already, or if neither end can split: pinned and

@@ -433,6 +433,16 @@ export class Cloth {
     live.crease(Float64Array.from(line.flat()), toNumber(angle, "angle"));
   }
 
+  sew(pairs, options = {}) {
+    const live = rawOf(this);
+    checkKeys(options, "options", ["speed", "kind", "tearForce"]);
+    const { speed = 0.5, kind = "weld", tearForce = 0 } = options;
+    const list = toUint32Array(Array.isArray(pairs) ? pairs.flat() : pairs, "pairs");
+    check(list.length % 2 === 0, "pairs", "hold two particles per pair");
+    const isStitch = toChoiceIndex(kind, "kind", ["weld", "stitch"]) === 1;
+    live.sew(list, toNumber(speed, "speed"), isStitch, toNumber(tearForce, "tearForce"));
+  }
+
   tearEdge(particleA, particleB) {
     const live = rawOf(this);
     return live.tear_edge(toUint32(particleA, "particleA"), toUint32(particleB, "particleB"));

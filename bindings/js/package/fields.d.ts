@@ -118,6 +118,21 @@ export interface Settings {
    * @defaultValue 0
    */
   sleepSpeed: number;
+  /**
+   * Over-pressure inside closed pieces of the cloth [Pa].
+   *
+   * A piece is closed if each of its edges has two triangles, as in a ball or a cushion, or if all
+   * of its border is sewn to closed pieces (`sew`). The pressure is constant, whatever the volume; a
+   * negative one sucks the sides inwards, as a vacuum does. Outwards is where the volume of the rest shape is positive, whatever the winding. A piece
+   * that is torn or cut open loses its pressure at once. Open cloth, such as a grid, feels none.
+   *
+   * Links stretch under high pressure unless `maxStretch` limits them. Where the pressure alone
+   * would move a particle of a piece by more than `maxDisplacement` in a substep, all of that piece
+   * gets less.
+   *
+   * @defaultValue 0
+   */
+  pressure: number;
 }
 
 /**
@@ -459,4 +474,25 @@ export interface ColliderDesc {
   indices?: Uint32Array | Uint16Array | readonly number[];
   /** Heightfield: `columns` × `rows` heights [m], row by row along x. They are copied. */
   heights?: Float32Array | Float64Array | readonly number[];
+}
+
+/** How `sew` joins pairs of particles. */
+export interface SewOptions {
+  /** Speed at which the distance of each pair falls to zero [m/s]; above 0. @defaultValue 0.5 */
+  speed?: number;
+  /**
+   * What joins the particles. A weld is as if woven in one piece: it never tears, and normals are
+   * smooth across it. A stitch is a thread that tears under more than `tearForce`, and keeps the
+   * normals of both sides apart.
+   *
+   * @defaultValue "weld"
+   */
+  kind?: "weld" | "stitch";
+  /**
+   * Force on one pair above which a stitch tears [N], as the mean over a tick; at least 0, 0 means
+   * never. A weld ignores it.
+   *
+   * @defaultValue 0
+   */
+  tearForce?: number;
 }

@@ -41,6 +41,7 @@ export const SETTINGS = {
   tearing: BOOLEAN,
   maxTearsPerTick: UINT32,
   sleepSpeed: NUMBER,
+  pressure: NUMBER,
 };
 
 export const MATERIAL = {

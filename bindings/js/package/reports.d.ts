@@ -125,6 +125,12 @@ export type ClothEvent = { tick: number; position: Vec3 } & (
       particleB: number;
       count: number;
     }
+  | {
+      /** The stitch between two particles tore, see `sew`. */
+      kind: "stitch-torn";
+      particleA: number;
+      particleB: number;
+    }
 );
 
 /** The stages of a tick. */

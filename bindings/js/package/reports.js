@@ -12,6 +12,7 @@ const EVENT_KINDS = [
   "held-inside",
   "free-inside",
   "layers-cross",
+  "stitch-torn",
 ];
 
 /** The fields of each kind of event besides kind, tick and position. */
@@ -26,6 +27,7 @@ const FIELDS_OF_KIND = [
   ["particleA", "count"],
   ["particleA", "count"],
   ["particleA", "particleB", "count"],
+  ["particleA", "particleB"],
 ];
 
 /** The fields in the list behind kind, tick and position. */

@@ -26,6 +26,7 @@ mod particles;
 mod pins;
 mod read;
 mod settings;
+mod sewing;
 mod skins;
 mod tear;
 mod time;

@@ -95,6 +95,7 @@ pub(crate) fn unpack_settings(list: &[f64]) -> Settings {
         tearing: list.switch(),
         max_tears_per_tick: list.count(),
         sleep_speed: list.number(),
+        pressure: list.number(),
     }
 }
 
@@ -109,7 +110,7 @@ pub(crate) fn pack_settings(settings: &Settings) -> Vec<f64> {
     list.number(settings.self_distance);
     list.switch(settings.tearing);
     list.count(settings.max_tears_per_tick);
-    list.number(settings.sleep_speed);
+    list.numbers(&[settings.sleep_speed, settings.pressure]);
     list.0
 }
 

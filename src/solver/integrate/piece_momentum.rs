@@ -7,7 +7,8 @@
 //! Internal stages exchange no momentum between pieces, so each piece is corrected by itself, by the
 //! rules of `momentum` for a cloth of one piece. Contacts do exchange momentum: pieces whose
 //! particles touch form a group (union–find), whose total momentum stays. A group that something
-//! holds is left as it is, since particle collision already conserves the sum of its pairs.
+//! holds is left as it is, since particle collision already conserves the sum of its pairs. Pieces
+//! that are sewn together form a group too.
 //!
 //! Reads predicted positions, the displacement history, the particles of each piece; writes
 //! positions, predicted displacements, `scratch.piece_groups`, and the scratch lists
@@ -24,6 +25,7 @@ use crate::solver::integrate::momentum::{
 use crate::solver::integrate::momentum_sums::PointSums;
 use crate::solver::integrate::rigid_motion::{Pivot, RigidMotion};
 use crate::solver::self_collide::particle_contacts;
+use crate::solver::stretch::sewn_pairs;
 use crate::solver::world::World;
 use crate::state::pins::Pin;
 use glam::{DVec3, Vec3};
@@ -31,11 +33,24 @@ use glam::{DVec3, Vec3};
 /// Before particle collision: removes the momentum that internal stages added to each piece since
 /// prediction, and joins the pieces that will exchange momentum.
 pub(crate) fn begin_particle_contacts(world: &mut World) {
-    if world.pieces < 2 || world.particle_collision.is_none() {
+    if world.pieces < 2 {
         return;
     }
-    remove_from_pieces(world, Rounding::Corrected);
+    let is_sewn = !world.sewing.is_empty();
+    if is_sewn {
+        world.scratch.piece_groups.reset(world.pieces);
+        sewn_pairs::join_sewn_pieces(world);
+    }
+    if world.particle_collision.is_none() {
+        return;
+    }
+    if is_sewn && world.scratch.piece_groups.has_joined {
+        remove_from_groups(world, Rounding::Corrected);
+    } else {
+        remove_from_pieces(world, Rounding::Corrected);
+    }
     particle_contacts::join_touching_pieces(world);
+    sewn_pairs::join_sewn_pieces(world);
 }
 
 /// After particle collision: removes the momentum that the corrections since prediction added to
@@ -43,8 +58,10 @@ pub(crate) fn begin_particle_contacts(world: &mut World) {
 pub(crate) fn remove_internal_momentum(world: &mut World) {
     if world.pieces == 1 {
         momentum::remove_internal_momentum(world);
-    } else if world.particle_collision.is_some() && world.scratch.piece_groups.has_joined {
-        remove_from_groups(world);
+    } else if (world.particle_collision.is_some() || !world.sewing.is_empty())
+        && world.scratch.piece_groups.has_joined
+    {
+        remove_from_groups(world, Rounding::Exact);
     } else {
         remove_from_pieces(world, Rounding::Exact);
     }
@@ -112,6 +129,7 @@ enum Rounding {
     Exact,
 }
 
+#[inline(never)]
 fn remove_from_pieces(world: &mut World, rounding: Rounding) {
     if !compute_corrections(world) {
         return;
@@ -125,7 +143,8 @@ fn remove_from_pieces(world: &mut World, rounding: Rounding) {
     world.scratch.pieces.members = members;
 }
 
-fn remove_from_groups(world: &mut World) {
+#[inline(never)]
+fn remove_from_groups(world: &mut World, rounding: Rounding) {
     if !compute_corrections(world) {
         return;
     }
@@ -137,7 +156,7 @@ fn remove_from_groups(world: &mut World) {
     for (group, piece) in groups.members.iter().zip(members.iter()) {
         let is_joined = group.len() > piece.len();
         let max_fixed = if is_joined { 0 } else { MAX_FIXED };
-        remove_from(world, group, max_fixed, is_pushed, Rounding::Exact);
+        remove_from(world, group, max_fixed, is_pushed, rounding);
     }
     world.scratch.pieces.members = members;
     world.scratch.piece_groups = groups;

@@ -30,7 +30,7 @@ impl World {
             && self.sleep.still_ticks as f32 * self.settings.tick >= TIME_TO_SLEEP
     }
 
-    /// Whether a pin, an anchor, a grab or a collider moves, or the wind varies in time or space.
+    /// Whether a pin, an anchor, a grab, a sewn pair or a collider moves, or the wind varies in time or space.
     fn is_driven(&self) -> bool {
         let wind = &self.wind;
         let is_uneven = wind.model == WindModel::SineField
@@ -38,6 +38,7 @@ impl World {
             || wind.wander > 0.0
             || wind.turbulence > 0.0;
         (is_uneven && wind.velocity != Vec3::ZERO)
+            || self.sewing.is_drawing()
             || self.pins.iter().any(|pin| pin.from != pin.target)
             || self.anchors.iter().any(AnchorConstraint::is_moving)
             || self.grabs.iter().any(|grab| {

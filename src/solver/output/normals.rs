@@ -4,7 +4,8 @@
 //! normal of a particle   n = Σ (b − a) × (c − a), normalised      sum over its triangles (a, b, c)
 //! blend                  x(share) = x · share + x_last · (1 − share)
 //! ```
-//! Method: area-weighted vertex normals. They are per particle, so a texture seam does not show.
+//! Method: area-weighted vertex normals. They are per particle, so a texture seam does not show, and
+//! the particles of a weld share theirs.
 //!
 //! Reads the mesh, seams and particles; writes the buffers that the caller passes.
 //! Invariant: a share of 1 gives the positions of the last tick bit for bit. A particle without a
@@ -24,7 +25,12 @@ use crate::solver::vertex_sums::contribution::{
 use crate::solver::vertex_sums::triangles;
 use crate::solver::vertex_sums::triangles::sum_in_bands;
 use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
+use crate::state::sewing::Sewing;
 use glam::Vec3;
+
+/// Length of the sum of the normals across a weld, over the sum of their lengths, from which on they
+/// share it.
+const MIN_SHARED_NORMAL: f32 = 0.01;
 
 /// Writes the absolute position of each render vertex [m].
 pub(crate) fn positions(world: &World, out: &mut Vec<Vec3>) {
@@ -61,6 +67,9 @@ pub(crate) fn compute(world: &World, x: &Columns, sums: &mut Columns) {
     sum_in_bands(world.threads, input, sums, |band, sums| {
         sum_normals(level, input, AreaNormal, band, sums);
     });
+    if !world.sewing.is_empty() {
+        share_across_welds(&world.sewing, sums);
+    }
     world
         .threads
         .parallel_for(sums.slices_mut(), MIN_PARTICLES_PER_THREAD, |sums| normalize(level, sums));
@@ -72,6 +81,21 @@ pub(crate) fn blend_positions(world: &World, share: f32, out: &mut Columns) {
     out.copy_from(&world.particles.x);
     let lists = out.slices_mut().into_iter().zip(world.particles.x_prev_tick.slices());
     lists.for_each(|(x, last)| blend(world.level, x, last, share));
+}
+
+/// Gives all members of a welded group the sum of their normals. Where sides face opposite ways, so
+/// that the sum has no direction, each keeps its own.
+#[inline(never)]
+fn share_across_welds(sewing: &Sewing, sums: &mut Columns) {
+    for weld in sewing.welds() {
+        let normals = weld.clone().map(|i| sums.get(i));
+        let (total, size) = normals.fold((Vec3::ZERO, 0.0), |(total, size), normal| {
+            (total + normal, size + normal.length())
+        });
+        if total.length() > MIN_SHARED_NORMAL * size {
+            weld.for_each(|i| sums.set(i, total));
+        }
+    }
 }
 
 leveled! {

@@ -64,8 +64,8 @@ impl World {
 }
 
 fn pair_list_input(world: &World) -> PairListInput<'_> {
-    let World { level, mesh, rest, particles, .. } = world;
-    PairListInput { level: *level, mesh, rest, particles }
+    let World { level, mesh, rest, particles, sewing, .. } = world;
+    PairListInput { level: *level, mesh, rest, particles, sewing }
 }
 
 /// Distance that particles keep at scale 1 [m].

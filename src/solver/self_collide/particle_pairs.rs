@@ -20,6 +20,7 @@ use crate::math::simd::Level;
 use crate::mesh::Mesh;
 use crate::solver::self_collide::connected_pieces::piece_of_sites;
 use crate::state::particles::Particles;
+use crate::state::sewing::Sewing;
 use glam::Vec3;
 
 /// Particles of one piece that are nearer than this at rest are neighbours and do not collide [mean
@@ -75,6 +76,7 @@ pub(crate) struct PairListInput<'a> {
     /// Rest position of each site [m].
     pub rest: &'a [Vec3],
     pub particles: &'a Particles,
+    pub sewing: &'a Sewing,
 }
 
 impl ParticleCollision {
@@ -146,7 +148,7 @@ impl ParticleCollision {
     /// Rebuilds the list with a margin [m].
     fn rebuild_pairs(&mut self, input: PairListInput<'_>, margin: f32) {
         (self.margin, self.passes) = (margin, 0);
-        let PairListInput { level, mesh, rest, particles } = input;
+        let PairListInput { level, mesh, rest, particles, sewing } = input;
         let Self { grid, pairs, listed_at, touching, firsts, pieces, .. } = self;
         listed_at.clear();
         listed_at.extend(particles.x.iter());
@@ -162,9 +164,10 @@ impl ParticleCollision {
             let distance = (rest[other] - rest[site]).length_squared();
             let is_neighbour = (pieces[site] == pieces[other])
                 & (distance <= neighbour_distance * neighbour_distance);
+            let is_sewn = !sewing.is_empty() && sewing.leader(pair[0]) == sewing.leader(pair[1]);
             // Compaction without a branch: the processor cannot predict which pairs are neighbours.
             pairs[count] = pair;
-            count += usize::from(!is_neighbour);
+            count += usize::from(!(is_neighbour | is_sewn));
         }
         pairs.truncate(count);
         for end in [1, 0] {

@@ -7,6 +7,7 @@
 //!                                                   ├─ mesh_kernel
 //!                                                   └─ sparse
 //!           tethers                   after each sweep
+//!           sewn_pairs                at the end of each sweep, and after every later stage
 //!           damping::remove
 //!           strain_limit              one sweep
 //! tick      tether_slack, at its start
@@ -32,6 +33,7 @@ pub(crate) mod link_projection;
 pub(crate) mod mesh_kernel;
 pub(crate) mod rollback;
 pub(crate) mod rollback_state;
+pub(crate) mod sewn_pairs;
 pub(crate) mod sparse;
 pub(crate) mod strain_limit;
 pub(crate) mod sweep_order;

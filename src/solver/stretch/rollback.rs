@@ -10,7 +10,8 @@
 //! free piece with anchors              x = R x_last + t, fitted to the motion of its anchors
 //! free piece                           x = R x_last + t, fitted to its own motion (mass-weighted)
 //! ```
-//! satisfies the limit again. So a free piece keeps flying, falling and spinning.
+//! satisfies the limit again. So a free piece keeps flying, falling and spinning. Pieces that are
+//! sewn together count as one.
 //!
 //! Reads `particles`, pins, grabs, attachments, anchors, the piece of each triangle; writes
 //! `scratch.rollback`. Invariant: held particles (w = 0) roll back to where they are now, so that
@@ -18,15 +19,18 @@
 
 use crate::geometry::transform::Transform;
 use crate::solver::integrate::rigid_motion::RigidMotion;
+use crate::solver::stretch::sewn_pairs;
 use crate::solver::world::World;
 use glam::Vec3;
 
 /// Computes the rollback position of every particle.
 pub(crate) fn compute(world: &mut World) {
     let mut positions = core::mem::take(&mut world.scratch.rollback.positions);
+    let is_grouped = sewn_pairs::group_sewn_pieces(world);
     let (p, shift) = (&world.particles, mean_held_displacement(world));
     positions.copy_from(&p.x);
-    for piece in world.scratch.pieces.members.iter() {
+    let (pieces, groups) = (&world.scratch.pieces.members, &world.scratch.piece_groups.members);
+    for piece in if is_grouped { groups } else { pieces }.iter().filter(|piece| !piece.is_empty()) {
         let particles = || piece.iter().map(|i| *i as usize);
         if particles().any(|i| p.w[i] <= 0.0) {
             let free = particles().filter(|i| p.w[*i] > 0.0);

@@ -8,7 +8,7 @@
 //! 2. At the end of the tick, until no l > (1 + 0.996 e) r, at most 24 rounds:    project_all
 //!      every 8th round              one pass along the pin order                 sweep_from_pins
 //!      every round                  a sweep as in 1 (forward, backward in turn),
-//!                                   then colliders and anchors
+//!                                   then colliders, anchors and sewn pairs
 //! 3. Repeat: both ends of every l > (1 + 0.996 e) r go to their rollback         roll_back
 //!    positions, until none moves; then colliders
 //! 4. Velocities follow the corrections                                           update_velocities
@@ -48,7 +48,7 @@ use crate::solver::collide::{self, Projection};
 use crate::solver::kinematic::anchors;
 use crate::solver::stretch::distance::project_upper_bound;
 use crate::solver::stretch::sweep_order::SweepOrder;
-use crate::solver::stretch::{rollback, tethers};
+use crate::solver::stretch::{rollback, sewn_pairs, tethers};
 use crate::solver::world::World;
 use crate::state::events::EventKind;
 use glam::Vec3;
@@ -132,6 +132,7 @@ fn project_all(world: &mut World, limit: f32) {
         }
         collide::project_out(world, Projection::Particles);
         anchors::project_at_end(world);
+        sewn_pairs::join(world);
         if find_over_stretched(world, limit).is_none() {
             break;
         }
@@ -224,6 +225,7 @@ fn roll_back(world: &mut World, limit: f32) {
                 }
             }
         }
+        has_moved |= sewn_pairs::roll_back_partners(world);
     }
 }
 

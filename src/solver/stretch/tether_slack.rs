@@ -9,7 +9,8 @@
 //! ε              0 for rigid links; else 0.005 + 4 σ g L / K, at most max_stretch / 2
 //! σ, L, K        largest mass per area, longest d, least stretch stiffness where it is painted
 //!                least: σ g L / K is the strain at the top of a strip of length L that hangs under
-//!                its own weight
+//!                its own weight; pressure p in closed pieces adds p / 2 to σ g, since a sphere of
+//!                radius L has p L / 2
 //! ```
 //! So tethers carry the load that the sweeps have not carried yet, and none of the load that really
 //! stretches the cloth. A cloth that was held apart contracts at the rate of the first term,
@@ -90,7 +91,8 @@ fn compute_weight_strain(world: &World) -> f32 {
         sets.fold(0.0, |largest: f32, l| if l.is_finite() { max(*l, largest) } else { largest });
     let [_, heaviest] = world.mass_scales.range();
     let [weakest, _] = world.maps.range(Map::Stretch);
-    let load = material.density * world.settings.gravity.length() * heaviest;
+    let pressure = if world.has_pressure() { world.settings.pressure.abs() } else { 0.0 };
+    let load = material.density * world.settings.gravity.length() * heaviest + 0.5 * pressure;
     let strain = load * longest / (softest * max(weakest, MIN_PAINTED_STRETCH));
     let own = MIN_SOFT_SLACK + LOAD_FACTOR * strain;
     let bound = world.settings.max_stretch;

@@ -20,6 +20,9 @@ pub(crate) struct PieceLabels {
     pub size: Vec<u32>,
     /// For each old piece, the new piece that continues it: its largest part.
     pub successor: Vec<u32>,
+    /// Side of the triangles of each closed piece on which its outside is: 1 along their normals, -1
+    /// against them; 0 for pieces that are not closed. Empty until `integrate::pressure` needs it.
+    pub outward: Vec<f32>,
     /// The particles of each piece.
     pub members: PieceMembers,
 }
@@ -33,6 +36,7 @@ impl PieceLabels {
             old_label: vec![0; triangles],
             size: Vec::with_capacity(triangles),
             successor: Vec::with_capacity(triangles),
+            outward: Vec::with_capacity(triangles),
             members: PieceMembers::with_capacity(particles, triangles),
         }
     }
@@ -48,6 +52,7 @@ impl PieceLabels {
         let count = self.label.len();
         self.size.reserve_total(count);
         self.successor.reserve_total(count);
+        self.outward.reserve_total(count);
         self.members.reserve(count);
     }
 }

@@ -13,6 +13,7 @@ use crate::types::material::MuslinMaterial;
 use crate::types::mesh::MuslinMeshDesc;
 use crate::types::mesh_report::MuslinMeshReport;
 use crate::types::settings::MuslinSettings;
+use crate::types::sewing::MuslinSewDesc;
 use crate::types::skin::MuslinSkinDesc;
 use crate::types::stats::{MUSLIN_STAGE_SLOTS, MuslinStats};
 use crate::types::stream::{MuslinStream, MuslinWriteDesc};
@@ -36,7 +37,7 @@ macro_rules! versioned_structs {
 
 versioned_structs! {
     // Struct: last field of the first release, last field now, `init` function.
-    MuslinSettings: tearing[4], sleep_speed[4], "muslin_settings_init";
+    MuslinSettings: tearing[4], pressure[4], "muslin_settings_init";
     MuslinMaterial: yield_creep[4], yield_weakening[4], "muslin_material_init";
     MuslinWind: seed[4], seed[4], "muslin_wind_init";
     MuslinColliderDesc: restitution[4], heights[size_of::<*const f32>()],
@@ -48,6 +49,7 @@ versioned_structs! {
     MuslinChanges: index_count[4], index_count[4], "muslin_changes_init";
     MuslinStream: size[size_of::<usize>()], size[size_of::<usize>()], "muslin_stream_init";
     MuslinSkinDesc: reserved[4], reserved[4], "muslin_skin_desc_init";
+    MuslinSewDesc: tear_force[4], tear_force[4], "muslin_sew_desc_init";
     MuslinWriteDesc: offset[4], relative[4], "muslin_write_desc_init";
     MuslinStats: seconds[4 * MUSLIN_STAGE_SLOTS], crossings[4], "muslin_stats_init";
 }

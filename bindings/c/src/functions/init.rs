@@ -9,6 +9,7 @@ use crate::types::grid::MuslinGridDesc;
 use crate::types::material::MuslinMaterial;
 use crate::types::mesh::MuslinMeshDesc;
 use crate::types::settings::MuslinSettings;
+use crate::types::sewing::MuslinSewDesc;
 use crate::types::skin::MuslinSkinDesc;
 use crate::types::stream::{MuslinStream, MuslinWriteDesc};
 use crate::types::wind::MuslinWind;
@@ -67,6 +68,16 @@ pub unsafe extern "C" fn muslin_stream_init_sized(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn muslin_write_desc_init_sized(
     desc: *mut MuslinWriteDesc,
+    struct_size: u32,
+) -> MuslinStatus {
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+    run_guarded(|| unsafe { init_struct("desc", desc, struct_size) })
+}
+
+/// Called by muslin_sew_desc_init with the sizeof of MuslinSewDesc.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_sew_desc_init_sized(
+    desc: *mut MuslinSewDesc,
     struct_size: u32,
 ) -> MuslinStatus {
     // SAFETY: by the header's rules, each pointer is NULL or valid for the call.

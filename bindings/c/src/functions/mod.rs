@@ -16,6 +16,7 @@ mod pins;
 mod queries;
 mod reference_frame;
 mod save;
+mod sewing;
 mod skins;
 mod time;
 mod topology;

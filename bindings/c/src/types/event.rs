@@ -18,7 +18,8 @@ pub const MUSLIN_EVENT_RECOVERED: u32 = 3;
 /// Tearing stopped: the particles that `extra_particles` reserved are used up. Reported once.
 pub const MUSLIN_EVENT_RESERVE_USED_UP: u32 = 4;
 /// Pins, grabs or anchors stretch the cloth past `max_stretch`: `count` links exceed it, one of
-/// them between `particle_a` and `particle_b`. Reported once, until the limit holds again.
+/// them between `particle_a` and `particle_b`. Reported once, until the limit holds again. Also for
+/// `count` sewn pairs whose particles are both held apart.
 pub const MUSLIN_EVENT_HELD_APART: u32 = 5;
 /// A cut added `vertex` on the edge between `particle_a` and `particle_b`.
 ///
@@ -36,6 +37,8 @@ pub const MUSLIN_EVENT_FREE_INSIDE: u32 = 8;
 /// With surface collision, edges of the cloth pass through triangles of it: `count` pairs of both.
 /// One of the edges is between `particle_a` and `particle_b`. Reported once, until none does.
 pub const MUSLIN_EVENT_LAYERS_CROSS: u32 = 9;
+/// The stitch between `particle_a` and `particle_b` tore, see muslin_cloth_sew.
+pub const MUSLIN_EVENT_STITCH_TORN: u32 = 10;
 
 /// An event. Fields that its kind does not mention are 0. Initialise it with muslin_event_init.
 ///
@@ -91,4 +94,5 @@ const _: () = {
     assert!(MUSLIN_EVENT_HELD_INSIDE == EventKind::HeldInside as u32);
     assert!(MUSLIN_EVENT_FREE_INSIDE == EventKind::FreeInside as u32);
     assert!(MUSLIN_EVENT_LAYERS_CROSS == EventKind::LayersCross as u32);
+    assert!(MUSLIN_EVENT_STITCH_TORN == EventKind::StitchTorn as u32);
 };

@@ -13,6 +13,7 @@ pub mod material;
 pub mod mesh;
 pub mod mesh_report;
 pub mod settings;
+pub mod sewing;
 pub mod skin;
 pub mod stats;
 pub mod stream;

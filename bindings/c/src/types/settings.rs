@@ -94,6 +94,18 @@ pub struct MuslinSettings {
     /// until something changes or touches it. Gusts, turbulence and MUSLIN_WIND_SINE_FIELD keep it
     /// awake. See `asleep` of MuslinStats.
     pub sleep_speed: f32,
+    /// Over-pressure inside closed pieces of the cloth [Pa]. Default 0. Finite.
+    ///
+    /// A piece is closed if each of its edges has two triangles, as in a ball or a cushion, or if all
+    /// of its border is sewn to closed pieces (muslin_cloth_sew). The pressure is constant, whatever
+    /// the volume; a negative one sucks the sides inwards, as a vacuum does. Outwards is where the volume of the rest shape is positive, whatever the winding. A
+    /// piece that is torn or cut open loses its pressure at once. Open cloth, such as a grid, feels
+    /// none.
+    ///
+    /// Links stretch under high pressure unless `max_stretch` limits them. Where the pressure alone
+    /// would move a particle of a piece by more than `max_displacement` in a substep, all of that
+    /// piece gets less.
+    pub pressure: f32,
 }
 
 impl Default for MuslinSettings {
@@ -120,6 +132,7 @@ impl From<&Settings> for MuslinSettings {
             tearing: settings.tearing.into(),
             max_tears_per_tick: settings.max_tears_per_tick,
             sleep_speed: settings.sleep_speed,
+            pressure: settings.pressure,
         }
     }
 }
@@ -143,6 +156,7 @@ impl TryFrom<MuslinSettings> for Settings {
             tearing: switch(settings.tearing, "settings.tearing")?,
             max_tears_per_tick: settings.max_tears_per_tick,
             sleep_speed: settings.sleep_speed,
+            pressure: settings.pressure,
         })
     }
 }

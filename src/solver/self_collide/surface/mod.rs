@@ -28,7 +28,8 @@
 //! non-crossing pass ◀── pairs of escaped particles,    substep    non_crossing, contact_graph
 //!     │    ▲            promoted speculative contacts
 //!     ▼    └─ tangent planes of colliders              substep    support_planes
-//! projection out of colliders, until both hold
+//! projection out of colliders, until both hold;        substep    sewn_sides
+//! the same with sewn pairs
 //!     │
 //!     ▼
 //! positions at the end of the substep
@@ -74,6 +75,7 @@ mod pair_cache;
 mod pair_store;
 mod rest_gap;
 mod separation_test;
+mod sewn_sides;
 mod speculative;
 mod split_separation;
 pub(crate) mod support_planes;

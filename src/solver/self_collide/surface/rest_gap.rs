@@ -19,6 +19,7 @@ use crate::mesh::Mesh;
 use crate::model::maps::mean;
 use crate::solver::self_collide::surface::contact::{Contact, ContactKind};
 use crate::solver::self_collide::surface::split_separation::SPLIT_DISTANCE;
+use crate::state::sewing::Sewing;
 use glam::Vec3;
 
 /// Gap of a pair of one piece, as a share of its rest distance.
@@ -36,6 +37,8 @@ pub(crate) struct RestGap<'a> {
     pub mean_edge: f32,
     /// Largest gap between layers [m].
     pub gap: f32,
+    /// Particles that are sewn together do not collide.
+    pub sewing: &'a Sewing,
     pub painted: Option<PaintedGap<'a>>,
 }
 
@@ -58,6 +61,19 @@ impl PaintedGap<'_> {
 }
 
 impl RestGap<'_> {
+    /// Whether a particle of one side of a pair is, or is sewn to, one of the other side.
+    #[inline(always)]
+    pub fn are_joined(&self, one: &[u32], other: &[u32]) -> bool {
+        one.iter().any(|id| other.contains(id))
+            || (!self.sewing.is_empty() && self.are_sewn(one, other))
+    }
+
+    #[inline(never)]
+    fn are_sewn(&self, one: &[u32], other: &[u32]) -> bool {
+        let leader = |id: &u32| self.sewing.leader(*id);
+        one.iter().any(|a| other.iter().any(|b| leader(a) == leader(b)))
+    }
+
     /// Rest distance from which on a pair keeps the full gap [m].
     pub fn full_gap_distance(&self) -> f32 {
         self.gap / REST_DISTANCE_SHARE

@@ -237,7 +237,7 @@ impl ClusterBvh {
             for j in set_bits(triangles & near) {
                 let triangle = self.triangles[(first + j) as usize];
                 let [a, b, c] = rest_gap.mesh.triangles[triangle as usize];
-                if vertex != a && vertex != b && vertex != c {
+                if !rest_gap.are_joined(&[vertex], &[a, b, c]) {
                     let ids = [vertex, a, b, c];
                     let gap = query.gap_of::<VERTEX_TRIANGLE>(ids);
                     self.pair_cache.vertex_triangle.push(ids, gap);
@@ -257,7 +257,7 @@ impl ClusterBvh {
         if theirs == 0 {
             return;
         }
-        let PairQuery { motion, search_distance, .. } = query;
+        let PairQuery { rest_gap, motion, search_distance, .. } = query;
         let from = self.clusters[one as usize].edges[0];
         let first = self.clusters[other as usize].edges[0];
         let blocks = &self.edge_aabbs[other as usize];
@@ -272,7 +272,7 @@ impl ClusterBvh {
                 for j in set_bits(theirs & block.overlap_mask(&own, *search_distance)) {
                     let j = j + (number * LANES) as u32;
                     let [r, s] = self.edges[(first + j) as usize];
-                    let is_disjoint = p != r && p != s && q != r && q != s;
+                    let is_disjoint = !rest_gap.are_joined(&[p, q], &[r, s]);
                     if is_disjoint && (one != other || i < j) {
                         let ids = [p, q, r, s];
                         self.pair_cache.edge_edge.push(ids, query.gap_of::<EDGE_EDGE>(ids));

@@ -26,7 +26,7 @@ use crate::solver::self_collide::surface::detection::{DetectedContacts, Detector
 use crate::solver::self_collide::surface::rest_gap::{PaintedGap, RestGap};
 use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
 use crate::solver::self_collide::surface::swept_particles::{SweptParticles, Widened};
-use crate::solver::self_collide::surface::{non_crossing, speculative};
+use crate::solver::self_collide::surface::{non_crossing, sewn_sides, speculative};
 use crate::solver::world::World;
 use crate::state::settings::SelfCollision;
 use glam::Vec3;
@@ -91,6 +91,7 @@ fn rest_gap<'a>(world: &'a World, pieces: &'a [u32], gap: f32) -> RestGap<'a> {
         mean_edge: world.mean_edge,
         gap,
         painted,
+        sewing: &world.sewing,
     }
 }
 
@@ -195,7 +196,7 @@ impl SurfaceCollision {
 
     /// Runs the non-crossing pass, and returns whether any particle moved. The centre of mass of a
     /// free cloth (no fixed particles, no collider contacts) does not move.
-    fn enforce_non_crossing(&mut self, world: &World) -> bool {
+    pub(super) fn enforce_non_crossing(&mut self, world: &World) -> bool {
         let has_rolled_back = self.run_non_crossing(world);
         let now = &mut self.motion.now;
         if has_rolled_back
@@ -402,6 +403,9 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
     if surface.enforce_non_crossing(world) || was_behind {
         interleaved::scatter(&surface.motion.now, &mut world.particles.x);
         project_out_of_colliders(&mut surface, world, substep, &mut pushed);
+    }
+    if !world.sewing.is_empty() {
+        sewn_sides::enforce_joined(&mut surface, world);
     }
     world.scratch.contacts.projected = pushed;
     // The next substep starts here; it gathers `now` anew.
