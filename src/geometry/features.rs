@@ -291,39 +291,22 @@ impl ShapeFeatures {
     /// Builds the features of triangles, each with an area. Corners in the same place count as one
     /// vertex. `is_solid` says that the triangles enclose a solid.
     pub fn build(positions: &[Vec3], triangles: &[[u32; 3]], is_solid: bool) -> Self {
-        let welded = weld_positions(positions);
-        let mut edges = Vec::new();
-        for triangle in triangles {
-            let [a, b, c] = triangle.map(|i| welded[i as usize]);
-            for [from, to, opposite] in [[a, b, c], [b, c, a], [c, a, b]] {
-                edges.push(([from.min(to), from.max(to)], opposite));
+        let (mut features, mut bends) = (Features::default(), BendHistogram::default());
+        let at = |i: u32| positions[i as usize];
+        let interior = if is_solid { FeatureSides::Solid } else { FeatureSides::TwoSided };
+        let mut bent = Vec::new();
+        for MeshEdge { ends, opposite, is_interior } in edges_of(positions, triangles) {
+            let sides = if is_interior { interior } else { FeatureSides::Boundary };
+            if let Some(feature) = EdgeFeature::new(ends.map(at), opposite.map(at), sides) {
+                bends.insert(feature.bend);
+                bent.push(ends);
+                features.edges.push(feature);
             }
         }
-        sort_groups(&mut edges, |([low, _], _)| *low);
-        let (mut features, mut bends) = (Features::default(), BendHistogram::default());
-        let mut ends = Vec::new();
-        for edge in edges.chunk_by(|a, b| a.0 == b.0) {
-            let interior = if is_solid { FeatureSides::Solid } else { FeatureSides::TwoSided };
-            let sides = if edge.len() == 2 { interior } else { FeatureSides::Boundary };
-            let at = |i: u32| positions[i as usize];
-            let opposite = [at(edge[0].1), at(edge[edge.len().min(2) - 1].1)];
-            let Some(feature) = EdgeFeature::new(edge[0].0.map(at), opposite, sides) else {
-                continue;
-            };
-            bends.insert(feature.bend);
-            let [from, to] = edge[0].0;
-            let edge = features.edges.len() as u32;
-            ends.extend([([from, to], edge), ([to, from], edge)]);
-            features.edges.push(feature);
-        }
-        sort_groups(&mut ends, |([from, _], _)| *from);
-        for own in ends.chunk_by(|a, b| a.0[0] == b.0[0]) {
-            let at = positions[own[0].0[0] as usize];
-            let edges: Vec<(Vec3, EdgeFeature)> = own
-                .iter()
-                .map(|([_, to], edge)| (positions[*to as usize], features.edges[*edge as usize]))
-                .collect();
-            features.push_vertex(at, edges.into_iter());
+        for own in ends_by_vertex(&bent).chunk_by(|a, b| a.vertex == b.vertex) {
+            let edges: Vec<(Vec3, EdgeFeature)> =
+                own.iter().map(|end| (at(end.other), features.edges[end.edge as usize])).collect();
+            features.push_vertex(at(own[0].vertex), edges.into_iter());
         }
         let ids = features.ids_since([0; 2]);
         let bounds: Vec<Aabb> = ids.map(|id| features.bounds(id)).collect();
@@ -344,8 +327,59 @@ impl ShapeFeatures {
     }
 }
 
+/// An edge of a mesh: its two ends, and the opposite corners of its first two triangles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MeshEdge {
+    pub ends: [u32; 2],
+    pub opposite: [u32; 2],
+    /// Whether exactly two triangles have it.
+    pub is_interior: bool,
+}
+
+/// Returns the edges of triangles, by their ends. Vertices in the same place count as the first one.
+#[inline(never)]
+pub(super) fn edges_of(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<MeshEdge> {
+    let welded = weld_positions(positions);
+    let mut sides = Vec::new();
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|i| welded[i as usize]);
+        for [from, to, opposite] in [[a, b, c], [b, c, a], [c, a, b]] {
+            sides.push(([from.min(to), from.max(to)], opposite));
+        }
+    }
+    sort_groups(&mut sides, |([low, _], _)| *low);
+    let edge = |same: &[([u32; 2], u32)]| MeshEdge {
+        ends: same[0].0,
+        opposite: [same[0].1, same[same.len().min(2) - 1].1],
+        is_interior: same.len() == 2,
+    };
+    sides.chunk_by(|a, b| a.0 == b.0).map(edge).collect()
+}
+
+/// An end of an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct EdgeEnd {
+    pub vertex: u32,
+    /// The other end.
+    pub other: u32,
+    /// The index of the edge.
+    pub edge: u32,
+}
+
+/// Returns the ends of edges, vertex by vertex.
+#[inline(never)]
+pub(super) fn ends_by_vertex(edges: &[[u32; 2]]) -> Vec<EdgeEnd> {
+    let mut ends = Vec::new();
+    for (edge, [from, to]) in (0..).zip(edges) {
+        ends.push(EdgeEnd { vertex: *from, other: *to, edge });
+        ends.push(EdgeEnd { vertex: *to, other: *from, edge });
+    }
+    sort_groups(&mut ends, |end| end.vertex);
+    ends
+}
+
 /// Returns, for each point, the first point in the same place.
-pub(super) fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
+fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
     // Adding zero turns minus zero into zero.
     let bits = |i: u32| (positions[i as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();

@@ -9,11 +9,10 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bends::{BendHistogram, SurfaceBend};
 use crate::geometry::bvh::Bvh;
 use crate::geometry::features::{
-    EdgeFeature, FeatureMotion, FeatureSides, Features, IncidentEdge, ShapeFeatures, VertexFeature,
-    weld_positions,
+    EdgeFeature, FeatureMotion, FeatureSides, Features, IncidentEdge, MeshEdge, ShapeFeatures,
+    VertexFeature, edges_of, ends_by_vertex,
 };
 use crate::geometry::relative_motion::{PartMotion, RigidStep};
-use crate::math::sort::sort_groups;
 use glam::Vec3;
 
 /// An edge: its two ends, and the opposite vertices of its two triangles.
@@ -39,33 +38,17 @@ impl FeatureSources {
     /// Builds all features of triangles, each with an area, and what they are made of. Vertices in
     /// the same place count as one.
     pub fn build(positions: &[Vec3], triangles: &[[u32; 3]]) -> (ShapeFeatures, Self) {
-        let welded = weld_positions(positions);
-        let mut sides = Vec::new();
-        for triangle in triangles {
-            let [a, b, c] = triangle.map(|i| welded[i as usize]);
-            for [from, to, opposite] in [[a, b, c], [b, c, a], [c, a, b]] {
-                sides.push(([from.min(to), from.max(to)], opposite));
-            }
-        }
-        sort_groups(&mut sides, |([low, _], _)| *low);
         let mut sources = Self::default();
-        let mut ends = Vec::new();
-        for same in sides.chunk_by(|a, b| a.0 == b.0) {
-            let is_interior = same.len() == 2;
-            let [from, to] = same[0].0;
-            let edge = sources.edges.len() as u32;
-            ends.extend([([from, to], edge), ([to, from], edge)]);
-            sources.edges.push(EdgeSource {
-                ends: [from, to],
-                opposite: [same[0].1, same[same.len().min(2) - 1].1],
-                sides: if is_interior { FeatureSides::TwoSided } else { FeatureSides::Boundary },
-            });
-        }
-        sort_groups(&mut ends, |([from, _], _)| *from);
-        for own in ends.chunk_by(|a, b| a.0[0] == b.0[0]) {
+        let source = |MeshEdge { ends, opposite, is_interior }| {
+            let sides = if is_interior { FeatureSides::TwoSided } else { FeatureSides::Boundary };
+            EdgeSource { ends, opposite, sides }
+        };
+        sources.edges.extend(edges_of(positions, triangles).into_iter().map(source));
+        let ends: Vec<[u32; 2]> = sources.edges.iter().map(|edge| edge.ends).collect();
+        for own in ends_by_vertex(&ends).chunk_by(|a, b| a.vertex == b.vertex) {
             sources.starts.push(sources.incident.len() as u32);
-            sources.vertices.push(own[0].0[0]);
-            sources.incident.extend(own.iter().map(|([_, to], edge)| [*edge, *to]));
+            sources.vertices.push(own[0].vertex);
+            sources.incident.extend(own.iter().map(|end| [end.edge, end.other]));
         }
         sources.starts.push(sources.incident.len() as u32);
         let features = sources.features(positions);
