@@ -46,8 +46,8 @@ impl Cloth {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadCount`](crate::Error::BadCount) unless there is one scale per particle;
-    /// [`Error::BadEntry`](crate::Error::BadEntry) names the first scale that is not from 0 to 1000.
+    /// [`Error::BadCount`] unless there is one scale per particle;
+    /// [`Error::BadEntry`] names the first scale that is not from 0 to 1000.
     /// The cloth is unchanged.
     pub fn set_map(&mut self, map: Map, scales: Option<&[f32]>) -> Result<()> {
         let world = &mut self.world;

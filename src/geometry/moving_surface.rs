@@ -123,7 +123,7 @@ impl MovingVertices<'_> {
         self.next[vertex as usize] - self.last[vertex as usize]
     }
 
-    /// The box of both ends of the way of some vertices.
+    /// The box of some vertices at both ends of the tick.
     fn swept<const COUNT: usize>(&self, vertices: [u32; COUNT]) -> Aabb {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for v in vertices {
@@ -171,7 +171,7 @@ impl MovingSurface {
         }
     }
 
-    /// Refits the trees to the way of the vertices in this tick.
+    /// Refits the trees to the motion of the vertices in this tick.
     pub fn refit(&mut self, vertices: MovingVertices<'_>) {
         (self.measured, self.posed, self.is_settled) = (None, None, false);
         let Self {
@@ -229,8 +229,8 @@ impl MovingSurface {
         self.posed = None;
     }
 
-    /// Takes over what a search found: candidate triangles, and features by their ids. With
-    /// `has_long_triangles` everything near the cloth can touch it.
+    /// Sets what can touch the cloth, as a search found it: triangles, edge features and vertex
+    /// features by their indices.
     pub fn activate(
         &mut self,
         triangles: impl Iterator<Item = u32>,
@@ -396,8 +396,8 @@ impl MovingSurface {
         longest2.sqrt()
     }
 
-    /// Returns the box of the motions of the triangles whose way overlaps `bounds` [m]; `None` if
-    /// there are none.
+    /// Returns the box of the displacements of the triangles that may overlap `bounds` in the tick [m];
+    /// `None` if there are none.
     pub fn motions_near(&self, vertices: MovingVertices<'_>, bounds: Aabb) -> Option<Aabb> {
         let CollisionShape::TriangleSurface(surface, _) = &self.shape else { return None };
         let mut motions = None;

@@ -3,7 +3,7 @@
 //! ```text
 //! distance(t) ≥ distance(now) − |motion of the point − motion of the part| until t
 //! ```
-//! So what moves along with a surface has few parts of it in reach, however fast both are.
+//! So a point that moves along with a surface has few parts of it in reach, however fast both are.
 //!
 //! Reads motions over a tick; writes nothing.
 
@@ -37,9 +37,10 @@ impl PartMotion {
 /// The motion of a point in a tick, as a search for pairs knows it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct PointMotion {
-    /// From now to the end of the tick, as expected, and from the start of the substep to now [m].
-    pub ways: [Vec3; 2],
-    /// The shares of the tick that these take.
+    /// The displacement from now to the end of the tick, as its velocity predicts it, and that from
+    /// the start of the substep to now [m].
+    pub displacements: [Vec3; 2],
+    /// The duration of each, in ticks.
     pub shares: [f32; 2],
 }
 
@@ -48,7 +49,8 @@ impl PointMotion {
     #[inline(never)]
     pub fn reach(&self, part: &PartMotion) -> f32 {
         let reach = |k: usize| {
-            (self.ways[k] - part.mean * self.shares[k]).length() + part.spread * self.shares[k]
+            (self.displacements[k] - part.mean * self.shares[k]).length()
+                + part.spread * self.shares[k]
         };
         max(reach(0), reach(1))
     }

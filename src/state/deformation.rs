@@ -27,18 +27,18 @@ pub(crate) struct Deformation {
     last: Vec<Vec3>,
     /// At the end of the next tick [m].
     next: Vec<Vec3>,
-    /// At the end of an `advance` [m]; empty if that is `next`.
+    /// At the end of an `advance` [m]; empty between reading a save and `restore`.
     #[serde(skip)]
     target: Vec<Vec3>,
     /// `None` between reading a save and `restore`.
     #[serde(skip)]
     surface: Option<Box<MovingSurface>>,
-    /// Whether the surface knows the way of the next tick.
+    /// Whether the surface is prepared for the motion of the next tick.
     #[serde(skip)]
     is_prepared: bool,
     #[serde(skip)]
     is_moving: bool,
-    /// The longest way of a vertex in the next tick [m].
+    /// The largest displacement of a vertex in the next tick [m].
     #[serde(skip)]
     longest: f32,
 }
@@ -86,7 +86,7 @@ impl Deformation {
         self.is_moving
     }
 
-    /// The longest way of a vertex in the next tick [m].
+    /// The largest displacement of a vertex in the next tick [m].
     pub fn longest(&self) -> f32 {
         self.longest
     }
@@ -114,7 +114,7 @@ impl Deformation {
         self.is_prepared &= !self.is_moving && !was_moving;
     }
 
-    /// Prepares the surface for the way of the next tick.
+    /// Prepares the surface for the motion of the next tick.
     pub fn prepare(&mut self) {
         let Self { last, next, surface: Some(surface), .. } = self else { return };
         if self.is_prepared {
@@ -179,7 +179,7 @@ impl Deformation {
         }
     }
 
-    /// Completes the way of a tick. The surface stays posed where it ended.
+    /// Completes the motion of a tick. The surface stays posed where it ended.
     pub fn finish_tick(&mut self) {
         if self.is_moving {
             self.last.copy_from_slice(&self.next);

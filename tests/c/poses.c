@@ -146,8 +146,16 @@ static void a_mesh_reaches_new_vertices(void) {
           "`count` must be the number of vertices");
   REFUSED(muslin_cloth_update_collider(cloth, body, raised[0], 10, 4), MUSLIN_STATUS_BAD_VALUE, "`stride`");
   CHECK(hash_of(cloth) == before);
+  /* The plate rises past the lowest particle in a tick, and takes it along. */
+  MuslinView view;
+  muslin_view_init(&view);
+  DONE(muslin_cloth_view(cloth, &view));
+  const float lowest = view.positions[3 * 47 + 1];
+  for (int v = 0; v < 4; v++) raised[v][1] = lowest + 0.02f;
   DONE(muslin_cloth_update_collider(cloth, body, raised[0], 16, 4));
   DONE(muslin_cloth_step(cloth, 1));
+  DONE(muslin_cloth_view(cloth, &view));
+  CHECK(view.positions[3 * 47 + 1] > lowest + 0.02f);
   DONE(muslin_cloth_remove_collider(cloth, body));
 }
 

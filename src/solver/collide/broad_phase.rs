@@ -110,41 +110,41 @@ fn refresh_long_triangles(world: &mut World) {
     contacts.long.refresh(limit, x, &world.mesh.triangles, world.level);
 }
 
-/// Returns whether a particle is farther than `limit` [m] from where the last rebuild expected it at
+/// Returns whether a particle is farther than `limit` [m] from where the last rebuild predicted it at
 /// `moment`.
 fn has_particle_moved(world: &mut World, limit: f32, moment: f32) -> bool {
     let mut has_moved = false;
     let nearby = &mut world.scratch.contacts.nearby;
-    let mut expected = &nearby.positions_at_rebuild;
-    if !nearby.ways.is_empty() {
+    let mut predicted = &nearby.positions_at_rebuild;
+    if !nearby.displacements.is_empty() {
         let since = moment - nearby.moment_of_rebuild;
-        nearby.expected.copy_from(&nearby.positions_at_rebuild);
-        for (i, way) in nearby.ways.iter().enumerate() {
-            nearby.expected.add(i, *way * since);
+        nearby.predicted.copy_from(&nearby.positions_at_rebuild);
+        for (i, displacement) in nearby.displacements.iter().enumerate() {
+            nearby.predicted.add(i, *displacement * since);
         }
-        expected = &nearby.expected;
+        predicted = &nearby.predicted;
     }
-    let (x, expected) = (world.particles.x.slices(), expected.slices());
-    any_moved(world.level, x, expected, limit * limit, &mut has_moved);
+    let (x, predicted) = (world.particles.x.slices(), predicted.slices());
+    any_moved(world.level, x, predicted, limit * limit, &mut has_moved);
     has_moved
 }
 
 /// Rebuilds the blocks and candidate pairs of all colliders, to hold until a particle is `margin` [m]
-/// from where it is expected: where it is now, or beside surfaces that deform where its velocity
+/// from where it is predicted: where it is now, or beside surfaces that deform where its velocity
 /// takes it.
 fn rebuild(world: &mut World, margin: f32, moment: f32) {
-    let is_one_deforming = world.colliders.iter().any(|body| body.is_deforming());
+    let is_any_deforming = world.colliders.iter().any(|body| body.is_deforming());
     let (tick, share) = (world.settings.tick, 1.0 / world.substeps as f32);
     let (scratch, x) = (&mut world.scratch, &world.particles.x);
     let nearby = &mut scratch.contacts.nearby;
     nearby.moment_of_rebuild = moment;
-    nearby.ways.clear();
-    if is_one_deforming {
-        nearby.ways.extend((0..x.x.len()).map(|i| world.particles.v.get(i) * tick));
+    nearby.displacements.clear();
+    if is_any_deforming {
+        nearby.displacements.extend((0..x.x.len()).map(|i| world.particles.v.get(i) * tick));
     }
     let left = max(1.0 - moment, 0.0);
-    let ways = &nearby.ways;
-    let forward = |i: usize| ways.get(i).map_or(Vec3::ZERO, |way| *way * left);
+    let displacements = &nearby.displacements;
+    let forward = |i: usize| displacements.get(i).map_or(Vec3::ZERO, |one| *one * left);
     nearby.positions_at_rebuild.copy_from(x);
     nearby.triangles_at_rebuild = world.mesh.triangles.len();
     nearby.is_stale = false;
@@ -195,14 +195,15 @@ fn rebuild(world: &mut World, margin: f32, moment: f32) {
                 let [now, start] = both(i);
                 let local = [&last, &next].map(|frame| frame.point_to_local(now));
                 if is_deforming {
-                    let ways = [forward(i), now - start].map(|way| next.vector_to_local(way));
-                    let motion = PointMotion { ways, shares: [left, share] };
+                    let displacements =
+                        [forward(i), now - start].map(|one| next.vector_to_local(one));
+                    let motion = PointMotion { displacements, shares: [left, share] };
                     let still = [local[0], local[0], local[1], local[1]];
                     return MotionBound::new(still, distance).with_motion(motion);
                 }
                 let start = [&last, &next].map(|frame| frame.point_to_local(start));
                 let bound = MotionBound::new([local[0], start[0], local[1], start[1]], distance);
-                if is_one_deforming { bound.grown(next.vector_to_local(forward(i))) } else { bound }
+                if is_any_deforming { bound.grown(next.vector_to_local(forward(i))) } else { bound }
             };
             if let Some(deformation) = body.deformation_mut() {
                 let mut bounds = Aabb::EMPTY;

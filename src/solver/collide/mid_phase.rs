@@ -134,9 +134,9 @@ impl MotionBound {
         &self.bounds
     }
 
-    /// Lets the ball contain all positions moved by `way` too [m].
-    pub fn grown(self, way: Vec3) -> Self {
-        let (half, length) = (way * 0.5, way.length() * 0.5);
+    /// Grows the ball until it also contains all positions moved by `displacement` [m].
+    pub fn grown(self, displacement: Vec3) -> Self {
+        let (half, length) = (displacement * 0.5, displacement.length() * 0.5);
         let low = self.bounds.low + half - Vec3::splat(length);
         let bounds = Aabb { low, high: self.bounds.high + half + Vec3::splat(length) };
         Self { center: self.center + half, radius: self.radius + length, bounds, ..self }
@@ -144,7 +144,7 @@ impl MotionBound {
 
     /// Adds a motion to the box.
     pub fn with_motion(self, motion: PointMotion) -> Self {
-        let [forward, backward] = motion.ways;
+        let [forward, backward] = motion.displacements;
         let low = forward.min(-backward).min(Vec3::ZERO);
         let high = forward.max(-backward).max(Vec3::ZERO);
         let bounds = Aabb { low: self.bounds.low + low, high: self.bounds.high + high };
@@ -211,8 +211,8 @@ impl ColliderPairs {
         }
     }
 
-    /// Pushes the candidate pairs of a shape and returns their range. `motion_bound`
-    /// bounds each of `count` particles.
+    /// Pushes the candidate pairs of a shape and returns their range. `motion_bound` bounds each
+    /// of `count` particles.
     pub(super) fn push_pairs(
         &mut self,
         shape: &CollisionShape,

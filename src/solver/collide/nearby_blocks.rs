@@ -32,12 +32,13 @@ pub(crate) struct NearbyBlocks {
     pub(super) blocks: Vec<u32>,
     /// The positions of all particles at the last rebuild [m].
     pub(super) positions_at_rebuild: Columns,
-    /// The moment of the tick at the last rebuild, and the way that the velocity of each particle took
-    /// it in a tick then [m]; empty if no collider deforms.
+    /// The time of the last rebuild within the tick, in ticks.
     pub(super) moment_of_rebuild: f32,
-    pub(super) ways: Vec<Vec3>,
-    /// Scratch: where particles are expected [m].
-    pub(super) expected: Columns,
+    /// The displacement of each particle in one tick at the velocity that it had then [m]; empty if no
+    /// collider deforms.
+    pub(super) displacements: Vec<Vec3>,
+    /// Scratch: the positions that this predicts [m].
+    pub(super) predicted: Columns,
     /// The number of triangles at the last rebuild.
     pub(super) triangles_at_rebuild: usize,
     pub(super) particle_bounds: Vec<Aabb>,
@@ -104,8 +105,8 @@ impl NearbyBlocks {
         self.entries.reserve_total(bodies);
         self.blocks.reserve_total(all);
         self.positions_at_rebuild.reserve(particles);
-        self.ways.reserve_total(particles);
-        self.expected.reserve(particles);
+        self.displacements.reserve_total(particles);
+        self.predicted.reserve(particles);
         self.particle_bounds.reserve_total(particle_blocks);
         self.triangle_bounds.reserve_total(triangle_blocks);
         self.candidates.reserve(bodies, particles, triangles);
