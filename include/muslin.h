@@ -590,9 +590,9 @@ typedef struct MuslinSettings {
   /**
    * Over-pressure inside closed pieces of the cloth [Pa]. Default 0. Finite.
    *
-   * A piece is closed if each of its edges has two triangles, as in a ball or a cushion. The
-   * pressure is constant, whatever the volume; a negative one sucks the sides inwards, as a vacuum
-   * does. Outwards is where the volume of the rest shape is positive, whatever the winding. A
+   * A piece is closed if each of its edges has two triangles, as in a ball or a cushion, or if all
+   * of its border is sewn to closed pieces (muslin_cloth_sew). The pressure is constant, whatever
+   * the volume; a negative one sucks the sides inwards, as a vacuum does. Outwards is where the volume of the rest shape is positive, whatever the winding. A
    * piece that is torn or cut open loses its pressure at once. Open cloth, such as a grid, feels
    * none.
    *

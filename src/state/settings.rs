@@ -76,9 +76,9 @@ pub struct Settings {
     ///
     /// A piece is closed if each of its edges has two triangles, as in a ball or a cushion, or if all
     /// of its border is sewn ([`Cloth::sew`](crate::Cloth::sew)) to closed pieces. The pressure is
-    /// constant, whatever the volume; a negative one sucks the sides inwards, as a vacuum does. Outwards is where the volume of the rest shape is positive, whatever the winding. A
-    /// piece that is torn or cut open loses its pressure at once. Open cloth, such as a grid, feels
-    /// none.
+    /// constant, whatever the volume; a negative one sucks the sides inwards, as a vacuum does.
+    /// Outwards is where the volume of the rest shape is positive, whatever the winding. A piece that
+    /// is torn or cut open loses its pressure at once. Open cloth, such as a grid, feels none.
     ///
     /// Links stretch under high pressure unless `max_stretch` limits them. Where the pressure alone
     /// would move a particle of a piece by more than `max_displacement` in a substep, all of that
