@@ -57,27 +57,12 @@ impl EdgeFeature {
     /// Makes the edge `ends` of two faces, each given by any other point of its plane (`opposite`);
     /// a boundary edge gives the same point twice. `None` if the faces lie in one plane.
     pub fn new(ends: [Vec3; 2], opposite: [Vec3; 2], sides: FeatureSides) -> Option<Self> {
-        let span = ends[1] - ends[0];
-        let length = span.length();
-        let along = span * (1.0 / length);
-        let heights = opposite.map(|point| {
-            let side = point - ends[0];
-            side - along * side.dot(along)
-        });
-        let width = heights.map(Vec3::length);
-        let inward = [heights[0] * (1.0 / width[0]), heights[1] * (1.0 / width[1])];
-        let sum = inward[0] + inward[1];
-        let angle = sum.length();
-        if !(angle > MIN_ANGLE && length > 0.0) {
-            return None;
-        }
-        let outward = sum * (-1.0 / angle);
+        let (along, inward, bend) = bend_at_edge(ends, opposite)?;
+        let outward = (inward[0] + inward[1]) * (-1.0 / bend.angle);
         let normals = inward.map(|inward| {
             let normal = along.cross(inward);
             if normal.dot(outward) < 0.0 { -normal } else { normal }
         });
-        let narrow = if width[0] < width[1] { width[0] } else { width[1] };
-        let bend = SurfaceBend { angle, curvature: angle / narrow };
         Some(Self { ends, inward, normals, outward, sides, bend })
     }
 
@@ -91,6 +76,29 @@ impl EdgeFeature {
     pub fn is_outside(&self, p: Vec3) -> bool {
         self.normals.iter().any(|normal| (p - self.ends[0]).dot(*normal) > 0.0)
     }
+}
+
+/// Returns the direction of the edge `ends` of two faces, the directions from it into both, of length
+/// one, and how much they bend there; each face is given by any other point of its plane. `None` if
+/// they lie in one plane.
+#[inline(always)]
+pub(super) fn bend_at_edge(
+    ends: [Vec3; 2],
+    opposite: [Vec3; 2],
+) -> Option<(Vec3, [Vec3; 2], SurfaceBend)> {
+    let span = ends[1] - ends[0];
+    let length = span.length();
+    let along = span * (1.0 / length);
+    let heights = opposite.map(|point| {
+        let side = point - ends[0];
+        side - along * side.dot(along)
+    });
+    let width = heights.map(Vec3::length);
+    let inward = [heights[0] * (1.0 / width[0]), heights[1] * (1.0 / width[1])];
+    let angle = (inward[0] + inward[1]).length();
+    let narrow = if width[0] < width[1] { width[0] } else { width[1] };
+    let bend = SurfaceBend { angle, curvature: angle / narrow };
+    (angle > MIN_ANGLE && length > 0.0).then_some((along, inward, bend))
 }
 
 /// Faces that meet at a smaller angle than this [rad] count as one plane.
@@ -295,7 +303,7 @@ impl ShapeFeatures {
         let at = |i: u32| positions[i as usize];
         let interior = if is_solid { FeatureSides::Solid } else { FeatureSides::TwoSided };
         let mut bent = Vec::new();
-        for MeshEdge { ends, opposite, is_interior } in edges_of(positions, triangles) {
+        for MeshEdge { ends, opposite, is_interior, .. } in edges_of(positions, triangles) {
             let sides = if is_interior { interior } else { FeatureSides::Boundary };
             if let Some(feature) = EdgeFeature::new(ends.map(at), opposite.map(at), sides) {
                 bends.insert(feature.bend);
@@ -332,6 +340,8 @@ impl ShapeFeatures {
 pub(super) struct MeshEdge {
     pub ends: [u32; 2],
     pub opposite: [u32; 2],
+    /// Its first triangle.
+    pub triangle: u32,
     /// Whether exactly two triangles have it.
     pub is_interior: bool,
 }
@@ -341,16 +351,17 @@ pub(super) struct MeshEdge {
 pub(super) fn edges_of(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<MeshEdge> {
     let welded = weld_positions(positions);
     let mut sides = Vec::new();
-    for triangle in triangles {
+    for (number, triangle) in (0..).zip(triangles) {
         let [a, b, c] = triangle.map(|i| welded[i as usize]);
         for [from, to, opposite] in [[a, b, c], [b, c, a], [c, a, b]] {
-            sides.push(([from.min(to), from.max(to)], opposite));
+            sides.push(([from.min(to), from.max(to)], opposite, number));
         }
     }
-    sort_groups(&mut sides, |([low, _], _)| *low);
-    let edge = |same: &[([u32; 2], u32)]| MeshEdge {
+    sort_groups(&mut sides, |([low, _], ..)| *low);
+    let edge = |same: &[([u32; 2], u32, u32)]| MeshEdge {
         ends: same[0].0,
         opposite: [same[0].1, same[same.len().min(2) - 1].1],
+        triangle: same[0].2,
         is_interior: same.len() == 2,
     };
     sides.chunk_by(|a, b| a.0 == b.0).map(edge).collect()

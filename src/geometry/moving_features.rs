@@ -10,16 +10,17 @@ use crate::geometry::bends::{BendHistogram, SurfaceBend};
 use crate::geometry::bvh::Bvh;
 use crate::geometry::features::{
     EdgeFeature, FeatureMotion, FeatureSides, Features, IncidentEdge, MeshEdge, ShapeFeatures,
-    VertexFeature, edges_of, ends_by_vertex,
+    VertexFeature, bend_at_edge, edges_of, ends_by_vertex,
 };
 use crate::geometry::relative_motion::{PartMotion, RigidStep};
 use glam::Vec3;
 
-/// An edge: its two ends, and the opposite vertices of its two triangles.
+/// An edge: its two ends, the opposite vertices of its two triangles, and the first of these.
 #[derive(Clone, Copy, Debug)]
 struct EdgeSource {
     ends: [u32; 2],
     opposite: [u32; 2],
+    triangle: u32,
     sides: FeatureSides,
 }
 
@@ -39,9 +40,9 @@ impl FeatureSources {
     /// the same place count as one.
     pub fn build(positions: &[Vec3], triangles: &[[u32; 3]]) -> (ShapeFeatures, Self) {
         let mut sources = Self::default();
-        let source = |MeshEdge { ends, opposite, is_interior }| {
+        let source = |MeshEdge { ends, opposite, triangle, is_interior }| {
             let sides = if is_interior { FeatureSides::TwoSided } else { FeatureSides::Boundary };
-            EdgeSource { ends, opposite, sides }
+            EdgeSource { ends, opposite, triangle, sides }
         };
         sources.edges.extend(edges_of(positions, triangles).into_iter().map(source));
         let ends: Vec<[u32; 2]> = sources.edges.iter().map(|edge| edge.ends).collect();
@@ -88,6 +89,30 @@ impl FeatureSources {
         [self.edges.len(), self.vertices.len()].map(|count| count as u32)
     }
 
+    /// Calls `visit` with every edge that has a bend for `is_sharp` and a first triangle for
+    /// `is_near`, with the vertices `at` their positions, and with both its ends as vertex features.
+    pub fn visit_sharp_edges(
+        &self,
+        at: &dyn Fn(u32) -> Vec3,
+        is_near: impl Fn(u32) -> bool,
+        is_sharp: impl Fn(&SurfaceBend) -> bool,
+        mut visit: impl FnMut(u32, [u32; 2]),
+    ) {
+        for (number, edge) in (0..).zip(&self.edges) {
+            if is_near(edge.triangle) {
+                let bend = bend_at_edge(edge.ends.map(at), edge.opposite.map(at));
+                if bend.is_some_and(|(_, _, bend)| is_sharp(&bend)) {
+                    visit(number, edge.ends.map(|v| self.vertex_feature(v)));
+                }
+            }
+        }
+    }
+
+    /// Returns the feature of a vertex that has edges. Features are in the order of their vertices.
+    fn vertex_feature(&self, vertex: u32) -> u32 {
+        self.vertices.partition_point(|other| *other < vertex) as u32
+    }
+
     /// Returns the ends of the edge with this feature id; `None` if it is a vertex.
     pub fn edge_ends(&self, id: u32) -> Option<[u32; 2]> {
         self.edges.get(id as usize).map(|edge| edge.ends)
@@ -106,7 +131,7 @@ impl FeatureSources {
 
     /// Poses an edge, with the vertices `at` their positions, and returns its ends.
     pub fn pose_edge(&self, to: &mut Features, edge: u32, at: &dyn Fn(u32) -> Vec3) -> [u32; 2] {
-        let EdgeSource { ends, opposite, sides } = self.edges[edge as usize];
+        let EdgeSource { ends, opposite, sides, .. } = self.edges[edge as usize];
         let positions = ends.map(at);
         to.edges[edge as usize] = EdgeFeature::new(positions, opposite.map(at), sides)
             .unwrap_or(EdgeFeature::flat(positions, sides));

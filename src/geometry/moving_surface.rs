@@ -7,7 +7,8 @@
 //! ```
 //! All features of the mesh are kept, also those of flat places, which may bend later; a flat one
 //! counts as smooth. In a search for pairs everything stands where it is then, and knows its motion
-//! in the tick.
+//! in the tick. The first search of a tick measures how much all edges near the cloth bend, and poses
+//! those that are sharp; other features are posed only beside long triangles.
 //!
 //! Reads vertices and the pairs near the cloth; writes its triangles and features.
 //! Invariant: contacts depend only on the vertices at both ends of the tick, never on earlier poses.
@@ -22,8 +23,8 @@ use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::{lerp, max};
 use glam::Vec3;
 
-/// The first search of a tick measures features in a space that is larger than it needs by this share
-/// of its half size, so that later ones need not.
+/// The first search of a tick measures edges in a space that is larger than it needs by this share of
+/// its half size, so that later ones need not.
 const MEASURED_MARGIN: f32 = 0.1;
 
 /// A moving triangle surface.
@@ -34,12 +35,17 @@ pub(crate) struct MovingSurface {
     /// The vertices of each triangle.
     corners: Vec<[u32; 3]>,
     sources: FeatureSources,
-    /// What the last search found near the cloth.
+    /// What the first search of the tick found near the cloth: triangles, and sharp features with the
+    /// edges that these need.
     near: ActiveParts,
+    /// Scratch: some parts near the cloth.
+    some: ActiveParts,
     /// What can touch the cloth, of that.
     active: ActiveParts,
-    /// The space in which the first search of the tick measured features.
+    /// The space in which the first search of the tick measured edges.
     measured: Option<Aabb>,
+    /// Whether the tree of the features bounds their motion in this tick.
+    is_feature_tree_current: bool,
     /// The part of the tick that is posed: its end and its length, in ticks.
     posed: Option<[f32; 2]>,
     /// Whether everything is posed, at rest.
@@ -70,14 +76,6 @@ impl Marked {
     fn clear(&mut self) {
         self.list.iter().for_each(|i| self.is_listed[*i as usize] = false);
         self.list.clear();
-    }
-
-    fn retain(&mut self, is_kept: impl Fn(u32) -> bool) {
-        let is_listed = &mut self.is_listed;
-        self.list.retain(|i| {
-            is_listed[*i as usize] = is_kept(*i);
-            is_listed[*i as usize]
-        });
     }
 
     fn insert(&mut self, i: u32) {
@@ -152,8 +150,10 @@ impl MovingSurface {
             corners: triangles,
             sources,
             near: ActiveParts::new(counts),
+            some: ActiveParts::new(counts),
             active: ActiveParts::new(counts),
             measured: None,
+            is_feature_tree_current: false,
             posed: None,
             is_settled: false,
         })
@@ -171,62 +171,94 @@ impl MovingSurface {
         }
     }
 
-    /// Refits the trees to the motion of the vertices in this tick.
+    /// Refits the tree of the triangles to the motion of the vertices in this tick.
     pub fn refit(&mut self, vertices: MovingVertices<'_>) {
         (self.measured, self.posed, self.is_settled) = (None, None, false);
-        let Self {
-            shape: CollisionShape::TriangleSurface(surface, features),
-            corners,
-            sources,
-            ..
-        } = self
-        else {
+        self.is_feature_tree_current = false;
+        let corners = core::mem::take(&mut self.corners);
+        if let Some((surface, _)) = self.parts() {
+            surface.refit(&|triangle| vertices.swept(corners[triangle as usize]));
+        }
+        self.corners = corners;
+    }
+
+    /// Refits the tree of the features likewise, once a tick.
+    fn refit_features(&mut self, vertices: MovingVertices<'_>) {
+        if core::mem::replace(&mut self.is_feature_tree_current, true) {
             return;
-        };
-        surface.refit(&|triangle| vertices.swept(corners[triangle as usize]));
-        features.refit(&|id| match sources.edge_ends(id) {
-            Some(ends) => vertices.swept(ends),
-            None => vertices.swept([sources.vertex(id)]),
-        });
+        }
+        let sources = core::mem::take(&mut self.sources);
+        if let Some((_, features)) = self.parts() {
+            features.refit(&|id| match sources.edge_ends(id) {
+                Some(ends) => vertices.swept(ends),
+                None => vertices.swept([sources.vertex(id)]),
+            });
+        }
+        self.sources = sources;
     }
 
     /// Poses everything near `bounds`, in the frame of the surface, for a search for pairs: where it is
-    /// at `moment` of the tick. `is_smooth` says which bends the search leaves out: features are
-    /// measured by the first search of a tick, and later ones pose only the others.
+    /// at `moment` of the tick. `is_sharp` says which bends the search asks for.
     pub fn pose_for_search(
         &mut self,
         vertices: MovingVertices<'_>,
         bounds: Aabb,
         moment: f32,
-        is_smooth: &dyn Fn(&SurfaceBend) -> bool,
+        is_sharp: &dyn Fn(&SurfaceBend) -> bool,
     ) {
         if self.is_settled {
             return;
         }
-        let is_known = self.measured.is_some_and(|measured| measured.contains(&bounds));
+        let is_known = self.is_measured(&bounds);
         let mut near = core::mem::take(&mut self.near);
-        if is_known {
-            self.pose_parts(vertices, &near, [moment, 0.0]);
-        } else {
+        if !is_known {
             let all = bounds.expanded(bounds.half_extents().max_element() * MEASURED_MARGIN);
-            self.list_near(all, &mut near);
-            self.pose_parts(vertices, &near, [moment, 0.0]);
-            self.set_motions(vertices, &near);
-            if let CollisionShape::TriangleSurface(_, features) = &self.shape {
-                let Features { edges, vertices, .. } = &features.features;
-                near.edges.retain(|edge| !is_smooth(&edges[edge as usize].bend));
-                near.vertices.retain(|vertex| !is_smooth(&vertices[vertex as usize].bend));
-            }
-            near.vertices.list.iter().for_each(|vertex| {
-                self.sources
-                    .incident(*vertex)
-                    .iter()
-                    .for_each(|[edge, _]| near.edges.insert(*edge));
-            });
+            self.list_near(vertices, all, moment, is_sharp, &mut near);
             self.measured = Some(all);
+        }
+        self.pose_parts(vertices, &near, [moment, 0.0]);
+        if !is_known {
+            self.set_motions(vertices, &near);
         }
         self.near = near;
         self.posed = None;
+    }
+
+    /// Returns whether the first search of this tick measured all of `bounds`.
+    pub fn is_measured(&self, bounds: &Aabb) -> bool {
+        self.is_settled || self.measured.is_some_and(|measured| measured.contains(bounds))
+    }
+
+    /// Poses the triangles near some boxes, which are measured, and all sharp features near the cloth
+    /// for a search for pairs at `moment` of the tick.
+    pub fn pose_some_for_search(
+        &mut self,
+        vertices: MovingVertices<'_>,
+        boxes: impl Iterator<Item = Aabb>,
+        moment: f32,
+    ) {
+        if self.is_settled {
+            return;
+        }
+        let (mut some, near) = (core::mem::take(&mut self.some), core::mem::take(&mut self.near));
+        some.clear();
+        if let CollisionShape::TriangleSurface(surface, _) = &self.shape {
+            boxes.for_each(|bounds| {
+                surface.overlapping(bounds).for_each(|triangle| some.triangles.insert(triangle));
+            });
+        }
+        near.edges.list.iter().for_each(|edge| some.edges.insert(*edge));
+        near.vertices.list.iter().for_each(|vertex| some.vertices.insert(*vertex));
+        self.pose_parts(vertices, &some, [moment, 0.0]);
+        (self.some, self.near, self.posed) = (some, near, None);
+    }
+
+    /// Returns the ids of the sharp features near the cloth, among others; `None` if everything is
+    /// posed, at rest.
+    pub fn sharp_features(&self) -> Option<impl Iterator<Item = u32> + '_> {
+        let edge_count = self.sources.counts()[0];
+        let vertices = self.near.vertices.list.iter().map(move |vertex| vertex + edge_count);
+        (!self.is_settled).then(|| self.near.edges.list.iter().copied().chain(vertices))
     }
 
     /// Sets what can touch the cloth, as a search found it: triangles, edge features and vertex
@@ -246,37 +278,66 @@ impl MovingSurface {
     }
 
     /// Poses what can touch the cloth at the end of a part of the tick, with the motion in it. `part`
-    /// is its end and its length, in ticks. With `is_whole` everything near the cloth is posed, also
-    /// what the search left out.
-    pub fn pose(&mut self, vertices: MovingVertices<'_>, part: [f32; 2], is_whole: bool) {
-        if self.is_settled || (self.posed == Some(part) && !is_whole) {
+    /// is its end and its length, in ticks.
+    pub fn pose(&mut self, vertices: MovingVertices<'_>, part: [f32; 2]) {
+        if self.is_settled || self.posed == Some(part) {
             return;
         }
-        if is_whole {
-            let mut near = core::mem::take(&mut self.near);
-            self.list_near(self.measured.unwrap_or(Aabb::ALL), &mut near);
-            self.pose_parts(vertices, &near, part);
-            // The lists of the search are not current any more.
-            (self.near, self.measured) = (near, None);
-        } else {
-            let active = core::mem::take(&mut self.active);
-            self.pose_parts(vertices, &active, part);
-            self.active = active;
-        }
-        self.posed = Some(part);
+        let active = core::mem::take(&mut self.active);
+        self.pose_parts(vertices, &active, part);
+        (self.active, self.posed) = (active, Some(part));
     }
 
-    /// Lists everything that overlaps `bounds` in the tick.
-    fn list_near(&self, bounds: Aabb, near: &mut ActiveParts) {
-        let CollisionShape::TriangleSurface(surface, features) = &self.shape else { return };
-        near.clear();
-        surface.overlapping(bounds).for_each(|triangle| near.triangles.insert(triangle));
-        let edge_count = features.features.edges.len() as u32;
-        for id in features.overlapping(bounds) {
-            match id.checked_sub(edge_count) {
-                Some(vertex) => near.insert_vertex(vertex, &self.sources),
-                None => near.edges.insert(id),
+    /// Poses all features in some boxes likewise, also smooth ones.
+    pub fn pose_features(
+        &mut self,
+        vertices: MovingVertices<'_>,
+        boxes: impl Iterator<Item = Aabb>,
+        part: [f32; 2],
+    ) {
+        if self.is_settled {
+            return;
+        }
+        self.refit_features(vertices);
+        let mut some = core::mem::take(&mut self.some);
+        some.clear();
+        if let CollisionShape::TriangleSurface(_, features) = &self.shape {
+            let edge_count = self.sources.counts()[0];
+            for id in boxes.flat_map(|bounds| features.overlapping(bounds)) {
+                match id.checked_sub(edge_count) {
+                    Some(vertex) => some.insert_vertex(vertex, &self.sources),
+                    None => some.edges.insert(id),
+                }
             }
+        }
+        self.pose_parts(vertices, &some, part);
+        self.some = some;
+    }
+
+    /// Lists the triangles that overlap `bounds` in the tick, and the sharp features at `moment`.
+    fn list_near(
+        &self,
+        vertices: MovingVertices<'_>,
+        bounds: Aabb,
+        moment: f32,
+        is_sharp: &dyn Fn(&SurfaceBend) -> bool,
+        near: &mut ActiveParts,
+    ) {
+        let CollisionShape::TriangleSurface(surface, _) = &self.shape else { return };
+        near.clear();
+        let ActiveParts { triangles, edges, vertices: ends } = near;
+        surface.overlapping(bounds).for_each(|triangle| triangles.insert(triangle));
+        self.sources.visit_sharp_edges(
+            &|v| vertices.at(v, moment),
+            |triangle| triangles.is_listed[triangle as usize],
+            is_sharp,
+            |edge, both| {
+                edges.insert(edge);
+                both.iter().for_each(|end| ends.insert(*end));
+            },
+        );
+        for vertex in &ends.list {
+            self.sources.incident(*vertex).iter().for_each(|[edge, _]| edges.insert(*edge));
         }
     }
 
@@ -294,6 +355,7 @@ impl MovingSurface {
         self.pose_parts(vertices, &near, [1.0, 0.0]);
         self.set_motions(vertices, &near);
         self.near = near;
+        self.refit_features(vertices);
         self.is_settled = true;
     }
 

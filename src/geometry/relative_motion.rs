@@ -45,6 +45,9 @@ pub(crate) struct PointMotion {
 }
 
 impl PointMotion {
+    /// No motion.
+    pub const NONE: Self = Self { displacements: [Vec3::ZERO; 2], shares: [0.0; 2] };
+
     /// Returns how far the point moves relative to a part, at most [m].
     #[inline(never)]
     pub fn reach(&self, part: &PartMotion) -> f32 {

@@ -152,8 +152,14 @@ impl TriangleSurface {
             let radius = radius + reach.unwrap_or(0.0);
             let height = (point - corners[0]).dot(*normal);
             // Negated, so that NaN counts as near.
-            let is_far = height.abs() > radius || {
-                let corners = corners.map(|corner| corner - point);
+            if height.abs() > radius {
+                return false;
+            }
+            let corners = corners.map(|corner| corner - point);
+            let [a, b, c] = corners;
+            let is_beside = a.min(b).min(c).cmpgt(Vec3::splat(radius)).any()
+                || a.max(b).max(c).cmplt(Vec3::splat(-radius)).any();
+            let is_far = is_beside || {
                 interpolate(corners, triangle_to_origin(corners)).length_squared() > radius * radius
             };
             !is_far

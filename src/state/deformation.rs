@@ -135,11 +135,28 @@ impl Deformation {
         &mut self,
         bounds: Aabb,
         moment: f32,
-        is_smooth: &dyn Fn(&SurfaceBend) -> bool,
+        is_sharp: &dyn Fn(&SurfaceBend) -> bool,
     ) {
         if let Self { last, next, surface: Some(surface), .. } = self {
-            surface.pose_for_search(MovingVertices { last, next }, bounds, moment, is_smooth);
+            surface.pose_for_search(MovingVertices { last, next }, bounds, moment, is_sharp);
         }
+    }
+
+    /// See [`MovingSurface::is_measured`].
+    pub fn is_measured(&self, bounds: &Aabb) -> bool {
+        self.surface.as_ref().is_some_and(|surface| surface.is_measured(bounds))
+    }
+
+    /// Poses what is near some boxes, see [`MovingSurface::pose_some_for_search`].
+    pub fn pose_some_for_search(&mut self, boxes: impl Iterator<Item = Aabb>, moment: f32) {
+        if let Self { last, next, surface: Some(surface), .. } = self {
+            surface.pose_some_for_search(MovingVertices { last, next }, boxes, moment);
+        }
+    }
+
+    /// See [`MovingSurface::sharp_features`].
+    pub fn sharp_features(&self) -> Option<impl Iterator<Item = u32> + '_> {
+        self.surface.as_ref().and_then(|surface| surface.sharp_features())
     }
 
     /// Lists what can touch the cloth, see [`MovingSurface::activate`].
@@ -155,9 +172,16 @@ impl Deformation {
     }
 
     /// Poses the surface for a part of the tick, see [`MovingSurface::pose`].
-    pub fn pose(&mut self, part: [f32; 2], is_whole: bool) {
+    pub fn pose(&mut self, part: [f32; 2]) {
         if let Self { last, next, surface: Some(surface), .. } = self {
-            surface.pose(MovingVertices { last, next }, part, is_whole);
+            surface.pose(MovingVertices { last, next }, part);
+        }
+    }
+
+    /// Poses features in some boxes, see [`MovingSurface::pose_features`].
+    pub fn pose_features(&mut self, boxes: impl Iterator<Item = Aabb>, part: [f32; 2]) {
+        if let Self { last, next, surface: Some(surface), .. } = self {
+            surface.pose_features(MovingVertices { last, next }, boxes, part);
         }
     }
 

@@ -4,7 +4,9 @@
 //! Every tick computes the swept bounds of all colliders. Blocks and candidate pairs are rebuilt
 //! only when they are stale: a particle has moved by almost `margin` since the last rebuild, a
 //! collider has left the bounds that were searched, or the cloth or its colliders have changed.
-//! Shapes with flat faces are searched again in every tick.
+//! Shapes with flat faces are searched again in every tick. Beside surfaces that deform, the velocity
+//! of a particle predicts its motion in the tick; if few of them leave it, pairs are searched for
+//! these alone.
 //!
 //! Reads colliders, positions, predicted positions and the mesh; writes `scratch.contacts.nearby`.
 //! Invariant: results never depend on when a rebuild happens, because everything that can touch is
@@ -12,6 +14,7 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::relative_motion::PointMotion;
+use crate::math::columns::Columns;
 use crate::math::{max, min};
 use crate::model::maps::Map;
 use crate::solver::collide::any_moved::any_moved;
@@ -19,10 +22,11 @@ use crate::solver::collide::contact_distance::{
     contact_gap, longest_free_edge, needs_triangle_tests, smoothing,
 };
 use crate::solver::collide::long_triangles::longest_edge_squared;
-use crate::solver::collide::mid_phase::{CandidateRange, MotionBound, PairSearch};
+use crate::solver::collide::mid_phase::{CandidateRange, Earlier, MotionBound, PairSearch};
 use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds};
 use crate::solver::collide::particle_bounds;
 use crate::solver::world::World;
+use crate::state::colliders::ColliderBody;
 use glam::Vec3;
 
 /// How far particles may move before a rebuild, in mean edge lengths at rest.
@@ -34,6 +38,9 @@ const NEAR: f32 = 2.0;
 
 /// The fraction of the margin at which a rebuild is due; the rest covers rounding.
 const REBUILD_AT: f32 = 0.95;
+
+/// A partial search counts as cheaper if no more than one in this many particles has moved.
+const FEW: usize = 4;
 
 /// Updates the swept bounds of all colliders at the start of a tick.
 pub(super) fn update_swept_bounds(world: &mut World) {
@@ -88,8 +95,11 @@ pub(crate) fn refresh(world: &mut World, moment: f32) {
     let has_topology_changed = nearby.positions_at_rebuild.x.len() != world.particles.len()
         || nearby.triangles_at_rebuild != world.mesh.triangles.len();
     let is_stale = nearby.is_stale || has_topology_changed;
-    if is_stale || has_particle_moved(world, margin * REBUILD_AT, moment) {
-        rebuild(world, margin, moment);
+    if is_stale {
+        rebuild(world, margin, moment, false);
+    } else if has_particle_moved(world, margin * REBUILD_AT, moment) {
+        let is_partial = predict_moved(world, margin, moment);
+        rebuild(world, margin, moment, is_partial);
     }
     refresh_long_triangles(world);
 }
@@ -129,41 +139,178 @@ fn has_particle_moved(world: &mut World, limit: f32, moment: f32) -> bool {
     has_moved
 }
 
-/// Rebuilds the blocks and candidate pairs of all colliders, to hold until a particle is `margin` [m]
-/// from where it is predicted: where it is now, or beside surfaces that deform where its velocity
-/// takes it.
-fn rebuild(world: &mut World, margin: f32, moment: f32) {
-    let is_any_deforming = world.colliders.iter().any(|body| body.is_deforming());
-    let (tick, share) = (world.settings.tick, 1.0 / world.substeps as f32);
+/// The motion of all particles as a search for pairs sees it.
+struct ParticleMotions<'a> {
+    x: &'a Columns,
+    /// The predicted positions of this substep and the displacements that lead to them.
+    predicted: &'a Columns,
+    displacement: &'a Columns,
+    /// See [`NearbyBlocks`].
+    displacements: &'a [Vec3],
+    /// What is left of the tick, and the length of a substep, in ticks.
+    shares: [f32; 2],
+}
+
+impl ParticleMotions<'_> {
+    /// Returns the position now and at the start of the substep: a fast particle is already far from
+    /// there.
+    fn both(&self, i: usize) -> [Vec3; 2] {
+        [self.x.get(i), self.predicted.get(i) - self.displacement.get(i)]
+    }
+
+    /// Returns the displacement until the end of the tick; zero if no collider deforms.
+    fn forward(&self, i: usize) -> Vec3 {
+        self.displacements.get(i).map_or(Vec3::ZERO, |one| *one * self.shares[0])
+    }
+
+    /// Returns positions whose box contains the motion.
+    fn path(&self, i: usize) -> [Vec3; 3] {
+        let [now, start] = self.both(i);
+        [now, start, now + self.forward(i)]
+    }
+
+    /// Bounds the motion relative to a collider with flat faces, with `distance` [m] around it.
+    fn bound(&self, i: usize, body: &ColliderBody, distance: f32) -> MotionBound {
+        let frames = [body.last.to_transform(), body.next.to_transform()];
+        let [now, start] = self.both(i);
+        let local = |x: Vec3| frames.each_ref().map(|frame| frame.point_to_local(x));
+        let [last, next] = local(now);
+        let forward = self.forward(i);
+        if body.is_deforming() {
+            let displacements = [forward, now - start].map(|one| frames[1].vector_to_local(one));
+            let motion = PointMotion { displacements, shares: self.shares };
+            return MotionBound::new([last, last, next, next], distance).with_motion(motion);
+        }
+        let [from_last, from_next] = local(start);
+        let bound = MotionBound::new([last, from_last, next, from_next], distance);
+        if self.displacements.is_empty() {
+            return bound;
+        }
+        bound.grown(frames[1].vector_to_local(forward))
+    }
+}
+
+/// Returns how near features of a collider must be to be candidates [m].
+fn search_distance(body: &ColliderBody, entry: &ColliderEntry, world_gap: f32, margin: f32) -> f32 {
+    let arc = body.collision_shape().map_or(0.0, |shape| body.max_arc_deviation(shape));
+    margin + world_gap + entry.sagitta_margin + arc
+}
+
+/// Predicts the particles that left their predicted motion anew, from `moment` of the tick on, and
+/// lists them. Returns whether pairs can be searched for these alone: they are few, and all colliders
+/// with flat faces near the cloth deform, where the first search of the tick measured them.
+fn predict_moved(world: &mut World, margin: f32, moment: f32) -> bool {
+    let tick = world.settings.tick;
+    let limit = margin * REBUILD_AT;
+    let [_, largest] = world.maps.range(Map::Thickness);
+    let shares = [max(1.0 - moment, 0.0), 1.0 / world.substeps as f32];
     let (scratch, x) = (&mut world.scratch, &world.particles.x);
     let nearby = &mut scratch.contacts.nearby;
-    nearby.moment_of_rebuild = moment;
-    nearby.displacements.clear();
-    if is_any_deforming {
-        nearby.displacements.extend((0..x.x.len()).map(|i| world.particles.v.get(i) * tick));
+    if nearby.displacements.is_empty() {
+        return false;
     }
-    let left = max(1.0 - moment, 0.0);
-    let displacements = &nearby.displacements;
-    let forward = |i: usize| displacements.get(i).map_or(Vec3::ZERO, |one| *one * left);
-    nearby.positions_at_rebuild.copy_from(x);
+    let since = moment - nearby.moment_of_rebuild;
+    let mut count = 0;
+    nearby.moved.clear();
+    for i in 0..x.x.len() {
+        let now = x.get(i);
+        let moved2 = (now - nearby.predicted.get(i)).length_squared();
+        // NaN counts as moved.
+        let has_moved = moved2.is_nan() || moved2 > limit * limit;
+        nearby.moved.push(has_moved);
+        if has_moved {
+            count += 1;
+            let displacement = world.particles.v.get(i) * tick;
+            nearby.displacements[i] = displacement;
+            nearby.positions_at_rebuild.set(i, now - displacement * since);
+        }
+    }
+    if count * FEW > x.x.len() {
+        return false;
+    }
+    nearby.searched.clone_from(&nearby.moved);
+    for corners in &world.mesh.triangles {
+        if corners.iter().any(|i| nearby.moved[*i as usize]) {
+            corners.iter().for_each(|i| nearby.searched[*i as usize] = true);
+        }
+    }
+    let motions = ParticleMotions {
+        x,
+        predicted: &scratch.predicted,
+        displacement: &scratch.displacement,
+        displacements: &nearby.displacements,
+        shares,
+    };
+    for (entry, body) in nearby.entries.iter().zip(world.colliders.iter()) {
+        let has_flat_faces = body.collision_shape().is_some_and(|shape| shape.bends().is_some());
+        if !has_flat_faces || entry.first_triangles == entry.first_particles {
+            continue;
+        }
+        let Some(deformation) = body.deformation().filter(|one| one.is_moving()) else {
+            return false;
+        };
+        let gap = contact_gap(body, world.material.thickness) * largest;
+        let distance = search_distance(body, entry, gap, margin);
+        let mut bounds = Aabb::EMPTY;
+        let searched = (0..).zip(&nearby.searched).filter(|(_, is_searched)| **is_searched);
+        searched.for_each(|(i, _)| bounds.merge(motions.bound(i, body, distance).bounds()));
+        if !deformation.is_measured(&bounds) {
+            return false;
+        }
+    }
+    true
+}
+
+/// Rebuilds the blocks and candidate pairs of all colliders, to hold until a particle is `margin` [m]
+/// from where it is predicted: where it is now, or beside surfaces that deform where its velocity
+/// takes it. A partial rebuild searches for pairs of the particles that [`predict_moved`] listed.
+fn rebuild(world: &mut World, margin: f32, moment: f32, is_partial: bool) {
+    let is_any_deforming = world.colliders.iter().any(|body| body.is_deforming());
+    let tick = world.settings.tick;
+    let shares = [max(1.0 - moment, 0.0), 1.0 / world.substeps as f32];
+    let (scratch, x) = (&mut world.scratch, &world.particles.x);
+    let nearby = &mut scratch.contacts.nearby;
+    let count = world.particles.len();
+    if !is_partial {
+        nearby.moment_of_rebuild = moment;
+        nearby.displacements.clear();
+        if is_any_deforming {
+            nearby.displacements.extend((0..count).map(|i| world.particles.v.get(i) * tick));
+        }
+        nearby.positions_at_rebuild.copy_from(x);
+    }
     nearby.triangles_at_rebuild = world.mesh.triangles.len();
     nearby.is_stale = false;
     let [_, largest] = world.maps.range(Map::Thickness);
-    // The position now and at the start of the substep: a fast particle is already far from there.
-    let both = |i: usize| [x.get(i), scratch.predicted.get(i) - scratch.displacement.get(i)];
-    let path = |i: usize| {
-        let [now, start] = both(i);
-        [now, start, now + forward(i)]
+    let motions = ParticleMotions {
+        x,
+        predicted: &scratch.predicted,
+        displacement: &scratch.displacement,
+        displacements: &nearby.displacements,
+        shares,
     };
-    let count = world.particles.len();
+    let since = moment - nearby.moment_of_rebuild;
+    let positions = &nearby.positions_at_rebuild;
+    let bounds_of = |particles: &mut dyn Iterator<Item = usize>| {
+        let mut bounds = Aabb::EMPTY;
+        for i in particles {
+            motions.path(i).iter().for_each(|x| bounds.include(*x));
+            if is_partial {
+                // The others may move on around where they were predicted.
+                let predicted = positions.get(i) + motions.displacements[i] * since;
+                bounds.include(predicted);
+                bounds.include(predicted + motions.forward(i));
+            }
+        }
+        bounds
+    };
     nearby.particle_bounds.clear();
     nearby.particle_bounds.extend(
-        (0..count)
-            .step_by(BLOCK)
-            .map(|first| Aabb::from_points((first..(first + BLOCK).min(count)).flat_map(path))),
+        (0..count).step_by(BLOCK).map(|first| bounds_of(&mut (first..(first + BLOCK).min(count)))),
     );
     nearby.triangle_bounds.clear();
     nearby.blocks.clear();
+    core::mem::swap(&mut nearby.candidates, &mut nearby.earlier);
     nearby.candidates.clear();
     nearby.longest_edge = 0.0;
     for (entry, body) in nearby.entries.iter_mut().zip(world.colliders.iter_mut()) {
@@ -171,7 +318,8 @@ fn rebuild(world: &mut World, margin: f32, moment: f32) {
         // The bounds of moving colliders get a margin of their own.
         let slack = if body.is_moving() { margin } else { 0.0 };
         entry.searched = entry.now.expanded(slack);
-        entry.candidates = CandidateRange::default();
+        let range = core::mem::take(&mut entry.candidates);
+        let had_pairs = entry.first_triangles > entry.first_particles;
         entry.first_particles = nearby.blocks.len() as u32;
         for (block, bounds) in nearby.particle_bounds.iter().enumerate() {
             if entry.searched.overlaps(bounds, margin) {
@@ -187,33 +335,46 @@ fn rebuild(world: &mut World, margin: f32, moment: f32) {
             nearby.longest_edge = longest_edge(triangles, |i| x.get(i)) + 2.0 * margin;
         }
         if has_features {
-            let (last, next) = (body.last.to_transform(), body.next.to_transform());
-            let distance = margin + gap + entry.sagitta_margin + body.max_arc_deviation(shape);
+            // A partial search keeps particles a margin from where they were predicted.
+            let more = if is_partial && !had_pairs { margin } else { 0.0 };
+            let distance = search_distance(body, entry, gap, margin + more);
             let search = PairSearch { distance, smooth: entry.smooth };
+            let candidates = &mut nearby.candidates;
+            let bounds = &mut nearby.motion_bounds;
+            let is_partial = is_partial && had_pairs;
             let is_deforming = body.is_deforming();
-            let motion_bound = |i: usize| {
-                let [now, start] = both(i);
-                let local = [&last, &next].map(|frame| frame.point_to_local(now));
-                if is_deforming {
-                    let displacements =
-                        [forward(i), now - start].map(|one| next.vector_to_local(one));
-                    let motion = PointMotion { displacements, shares: [left, share] };
-                    let still = [local[0], local[0], local[1], local[1]];
-                    return MotionBound::new(still, distance).with_motion(motion);
+            if is_deforming {
+                bounds.clear();
+                bounds.extend((0..count).map(|i| {
+                    let is_searched = !is_partial || nearby.searched[i];
+                    if is_searched { motions.bound(i, body, distance) } else { MotionBound::NONE }
+                }));
+            }
+            if let Some(deformation) = body.deformation_mut().filter(|_| is_deforming) {
+                if is_partial {
+                    let moved = bounds.iter().zip(&nearby.searched);
+                    let boxes = moved.filter(|(_, is_searched)| **is_searched);
+                    deformation.pose_some_for_search(boxes.map(|(one, _)| *one.bounds()), moment);
+                } else {
+                    let mut all = Aabb::EMPTY;
+                    bounds.iter().for_each(|one| all.merge(one.bounds()));
+                    deformation.pose_for_search(all, moment, &|bend| !search.is_smooth(bend));
                 }
-                let start = [&last, &next].map(|frame| frame.point_to_local(start));
-                let bound = MotionBound::new([local[0], start[0], local[1], start[1]], distance);
-                if is_any_deforming { bound.grown(next.vector_to_local(forward(i))) } else { bound }
-            };
-            if let Some(deformation) = body.deformation_mut() {
-                let mut bounds = Aabb::EMPTY;
-                (0..count).for_each(|i| bounds.merge(motion_bound(i).bounds()));
-                deformation.pose_for_search(bounds, moment, &|bend| search.is_smooth(bend));
             }
             let Some(shape) = body.collision_shape() else { continue };
-            let candidates = &mut nearby.candidates;
-            entry.candidates =
-                candidates.push_pairs(shape, &world.mesh, count, motion_bound, search);
+            let deformation = body.deformation().filter(|_| is_deforming);
+            entry.candidates = match deformation.and_then(|one| one.sharp_features()) {
+                Some(sharp) => {
+                    let (pairs, moved) = (&nearby.earlier, &nearby.moved[..]);
+                    let earlier = is_partial.then_some(Earlier { pairs, range, moved });
+                    let shape = (shape, sharp);
+                    candidates.push_pairs_of_deforming(shape, &world.mesh, bounds, search, earlier)
+                }
+                None => {
+                    let motion_bound = |i: usize| motions.bound(i, body, distance);
+                    candidates.push_pairs(shape, &world.mesh, count, motion_bound, search)
+                }
+            };
             if let Some(deformation) = body.deformation_mut() {
                 let found = candidates.of_range(&entry.candidates);
                 deformation.activate(
@@ -228,7 +389,7 @@ fn rebuild(world: &mut World, margin: f32, moment: f32) {
                 let blocks = world.mesh.triangles.chunks(BLOCK);
                 nearby.triangle_bounds.extend(blocks.map(|block| {
                     let corners = block.as_flattened().iter();
-                    Aabb::from_points(corners.flat_map(|i| path(*i as usize)))
+                    bounds_of(&mut corners.map(|i| *i as usize))
                 }));
             }
             for (block, bounds) in nearby.triangle_bounds.iter().enumerate() {

@@ -48,22 +48,14 @@ impl LongPairs {
         (long_triangles, longest_free_edge): (&[u32], f32),
     ) {
         self.clear();
-        let free2 = longest_free_edge * longest_free_edge;
-        let is_long = |triangle: u32| {
-            let corners = mesh.triangles[triangle as usize];
-            longest_edge_squared(corners.map(|i| particles.end_position(i as usize))) > free2
-        };
+        let is_long = |triangle: u32| is_long(particles, mesh, triangle, longest_free_edge);
         for triangle in long_triangles {
             if !is_long(*triangle) {
                 continue;
             }
             let corners = mesh.triangles[*triangle as usize];
             let across = mesh.across[*triangle as usize];
-            let path =
-                |i: u32| [particles.start_position(i as usize), particles.end_position(i as usize)];
-            let motion = Aabb::from_points(corners.into_iter().flat_map(path));
-            let bounds = motion.expanded(search.distance);
-            let all = own.overlapping(bounds);
+            let all = own.overlapping(motion_bounds(particles, corners, search.distance));
             let is_bent = |bend: &SurfaceBend| bend.angle > 0.0 && search.is_smooth(bend);
             for id in all.filter(|id| is_bent(&own.features.bend(*id))) {
                 match own.features.get(id) {
@@ -84,4 +76,36 @@ impl LongPairs {
             }
         }
     }
+}
+
+/// Returns the boxes of the motion of the triangles that [`LongPairs::collect`] counts, each with
+/// `distance` [m] around it.
+pub(super) fn boxes<'a>(
+    particles: &'a LocalParticles<'_>,
+    mesh: &'a Mesh,
+    (long_triangles, longest_free_edge): (&'a [u32], f32),
+    distance: f32,
+) -> impl Iterator<Item = Aabb> + 'a {
+    let long = long_triangles
+        .iter()
+        .filter(move |triangle| is_long(particles, mesh, **triangle, longest_free_edge));
+    long.map(move |at| motion_bounds(particles, mesh.triangles[*at as usize], distance))
+}
+
+/// Returns whether a triangle has an edge longer than `longest_free_edge` [m].
+fn is_long(
+    particles: &LocalParticles<'_>,
+    mesh: &Mesh,
+    triangle: u32,
+    longest_free_edge: f32,
+) -> bool {
+    let corners = mesh.triangles[triangle as usize];
+    let longest2 = longest_edge_squared(corners.map(|i| particles.end_position(i as usize)));
+    longest2 > longest_free_edge * longest_free_edge
+}
+
+/// Returns the box of the motion of a triangle in the substep, with `distance` [m] around it.
+fn motion_bounds(particles: &LocalParticles<'_>, corners: [u32; 3], distance: f32) -> Aabb {
+    let path = |i: u32| [particles.start_position(i as usize), particles.end_position(i as usize)];
+    Aabb::from_points(corners.into_iter().flat_map(path)).expanded(distance)
 }

@@ -29,6 +29,9 @@ use glam::Vec3;
 /// Triangles that query the features together; on a grid they are mostly neighbours.
 const BLOCK: usize = 32;
 
+/// Given features whose bounds are tested together.
+const GROUP: usize = 16;
+
 /// The candidate pairs of all colliders.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ColliderPairs {
@@ -42,6 +45,12 @@ pub(crate) struct ColliderPairs {
     motion_bounds: Vec<MotionBound>,
     /// The features near a block of triangles, with their bounds.
     block_features: Vec<(u32, Aabb)>,
+    /// Features that a search was given, with their bounds, and the bounds of each group of them.
+    given: Vec<(u32, Aabb)>,
+    given_groups: Vec<Aabb>,
+    /// For each triangle, and the end, the numbers of edges and vertices before its own; only of
+    /// colliders that deform.
+    pair_starts: Vec<[u32; 2]>,
 }
 
 /// An edge feature of a collider and an edge of the cloth.
@@ -68,6 +77,7 @@ pub(super) struct CandidateRange {
     edges: [u32; 2],
     vertices: [u32; 2],
     first_face_start: u32,
+    first_pair_start: u32,
 }
 
 /// The candidate pairs of one collider.
@@ -116,6 +126,10 @@ pub(super) struct MotionBound {
 }
 
 impl MotionBound {
+    /// The bound of a particle that is not searched for.
+    pub const NONE: Self =
+        Self { center: Vec3::ZERO, radius: 0.0, bounds: Aabb::EMPTY, motion: PointMotion::NONE };
+
     /// Bounds four positions; `distance` [m] is added to the box.
     pub fn new(positions: [Vec3; 4], distance: f32) -> Self {
         let center = (positions[0] + positions[1] + positions[2] + positions[3]) * 0.25;
@@ -172,6 +186,34 @@ pub(super) struct PairSearch {
     pub smooth: SurfaceBend,
 }
 
+/// What a search for the pairs of a collider that deforms starts from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Earlier<'a> {
+    /// The pairs of the search before, and the range of the collider in them.
+    pub pairs: &'a ColliderPairs,
+    pub range: CandidateRange,
+    /// The particles to search for anew.
+    pub moved: &'a [bool],
+}
+
+impl Earlier<'_> {
+    /// Pushes the pairs that a triangle had.
+    fn copy_pairs(
+        &self,
+        triangle: usize,
+        (edges, vertices): (&mut Vec<EdgeEdgePair>, &mut Vec<VertexTrianglePair>),
+    ) {
+        let starts = &self.pairs.pair_starts[self.range.first_pair_start as usize + triangle..];
+        let range = |k: usize| starts[0][k] as usize..starts[1][k] as usize;
+        edges.extend_from_slice(&self.pairs.edges[range(0)]);
+        vertices.extend_from_slice(&self.pairs.vertices[range(1)]);
+    }
+
+    fn has_moved(&self, corners: &[u32; 3]) -> bool {
+        corners.iter().any(|i| self.moved[*i as usize])
+    }
+}
+
 impl PairSearch {
     pub fn is_smooth(&self, bend: &SurfaceBend) -> bool {
         bend.angle <= self.smooth.angle && bend.curvature <= self.smooth.curvature
@@ -188,6 +230,7 @@ impl ColliderPairs {
         self.face_starts.reserve_total(bodies * (particles + 1));
         self.faces.reserve_total(8 * few * particles);
         self.block_features.reserve_total(triangles);
+        self.pair_starts.reserve_total(bodies * (triangles + 1));
         self.terrain_features.reserve(triangles);
         self.motion_bounds.reserve_total(particles);
     }
@@ -198,6 +241,27 @@ impl ColliderPairs {
         self.face_starts.clear();
         self.faces.clear();
         self.terrain_features.clear();
+        self.pair_starts.clear();
+    }
+
+    /// Sets the features that a search tests, of which some may be smooth.
+    fn set_given(
+        &mut self,
+        own: &ShapeFeatures,
+        given: impl Iterator<Item = u32>,
+        search: &PairSearch,
+    ) {
+        let sharp = given.filter(|id| !search.is_smooth(&own.features.bend(*id)));
+        self.given.clear();
+        self.given.extend(sharp.map(|id| (id, own.features.bounds(id))));
+        let merged = |group: &[(u32, Aabb)]| {
+            group.iter().fold(Aabb::EMPTY, |mut all, (_, bounds)| {
+                all.merge(bounds);
+                all
+            })
+        };
+        self.given_groups.clear();
+        self.given_groups.extend(self.given.chunks(GROUP).map(merged));
     }
 
     /// Returns the pairs of a collider.
@@ -221,29 +285,101 @@ impl ColliderPairs {
         motion_bound: impl Fn(usize) -> MotionBound,
         search: PairSearch,
     ) -> CandidateRange {
-        let (edges, vertices) = (self.edges.len() as u32, self.vertices.len() as u32);
-        let first_face_start = self.face_starts.len() as u32;
         self.motion_bounds.clear();
         self.motion_bounds.extend((0..count).map(motion_bound));
-        self.push_faces(shape, search.distance);
+        let range = self.begin_range();
+        self.push_faces(shape, search.distance, None);
         self.push_feature_pairs(shape, mesh, search);
-        CandidateRange {
-            edges: [edges, self.edges.len() as u32],
-            vertices: [vertices, self.vertices.len() as u32],
-            first_face_start,
+        self.end_range(range)
+    }
+
+    /// Pushes the candidate pairs of a collider that deforms and returns their range, as
+    /// [`ColliderPairs::push_pairs`] does. With `earlier` only some particles are searched for, and
+    /// the pairs of the others are taken from there.
+    pub(super) fn push_pairs_of_deforming(
+        &mut self,
+        (shape, sharp): (&CollisionShape, impl Iterator<Item = u32>),
+        mesh: &Mesh,
+        motion_bounds: &[MotionBound],
+        search: PairSearch,
+        earlier: Option<Earlier<'_>>,
+    ) -> CandidateRange {
+        let Some(own) = features_of(shape) else { return CandidateRange::default() };
+        self.motion_bounds.clear();
+        self.motion_bounds.extend_from_slice(motion_bounds);
+        self.set_given(own, sharp, &search);
+        let range = self.begin_range();
+        self.push_faces(shape, search.distance, earlier);
+        for (number, block) in mesh.triangles.chunks(BLOCK).enumerate() {
+            self.push_block(&own.features, search.distance, mesh, (number * BLOCK, block), earlier);
+        }
+        self.pair_starts.push([self.edges.len() as u32, self.vertices.len() as u32]);
+        self.end_range(range)
+    }
+
+    /// Pushes the pairs of a block of triangles and the given features.
+    fn push_block(
+        &mut self,
+        features: &Features,
+        distance: f32,
+        mesh: &Mesh,
+        (first, block): (usize, &[[u32; 3]]),
+        earlier: Option<Earlier<'_>>,
+    ) {
+        let is_searched =
+            |corners: &&[u32; 3]| earlier.is_none_or(|earlier| earlier.has_moved(corners));
+        let mut bounds = Aabb::EMPTY;
+        block.iter().filter(is_searched).flatten().for_each(|i| {
+            bounds.merge(&self.motion_bounds[*i as usize].bounds);
+        });
+        self.block_features.clear();
+        for (group, all) in self.given.chunks(GROUP).zip(&self.given_groups) {
+            if all.overlaps(&bounds) {
+                let near = group.iter().filter(|(_, one)| one.overlaps(&bounds));
+                self.block_features.extend(near);
+            }
+        }
+        let motion_bounds = &self.motion_bounds;
+        let searched = TriangleBlock { features, motion_bounds, distance };
+        for (triangle, corners) in (first..).zip(block) {
+            self.pair_starts.push([self.edges.len() as u32, self.vertices.len() as u32]);
+            let pairs = (&mut self.edges, &mut self.vertices);
+            match earlier {
+                Some(earlier) if !earlier.has_moved(corners) => earlier.copy_pairs(triangle, pairs),
+                _ => searched.push_pairs_of(mesh, triangle, &self.block_features, pairs),
+            }
         }
     }
 
+    fn begin_range(&self) -> CandidateRange {
+        CandidateRange {
+            edges: [self.edges.len() as u32; 2],
+            vertices: [self.vertices.len() as u32; 2],
+            first_face_start: self.face_starts.len() as u32,
+            first_pair_start: self.pair_starts.len() as u32,
+        }
+    }
+
+    fn end_range(&self, mut range: CandidateRange) -> CandidateRange {
+        range.edges[1] = self.edges.len() as u32;
+        range.vertices[1] = self.vertices.len() as u32;
+        range
+    }
+
     /// Pushes the faces within `distance` [m] of each particle.
-    fn push_faces(&mut self, shape: &CollisionShape, distance: f32) {
+    fn push_faces(&mut self, shape: &CollisionShape, distance: f32, earlier: Option<Earlier<'_>>) {
         let bounds = shape.bounds();
         let has_faces =
             matches!(shape, CollisionShape::ConvexHull(..) | CollisionShape::TriangleSurface(..));
         if !has_faces {
             return;
         }
-        for particle in &self.motion_bounds {
+        for (i, particle) in self.motion_bounds.iter().enumerate() {
             self.face_starts.push(self.faces.len() as u32);
+            if let Some(earlier) = earlier.filter(|earlier| !earlier.moved[i]) {
+                self.faces.extend_from_slice(earlier.pairs.of_range(&earlier.range).faces(i));
+                continue;
+            }
             if !particle.bounds.overlaps(&bounds) {
                 continue;
             }

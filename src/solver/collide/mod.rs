@@ -264,7 +264,7 @@ fn solve_colliders(
             continue;
         }
         if let Some(deformation) = body.deformation_mut() {
-            deformation.pose(part, false);
+            deformation.pose(part);
         }
         let Some(shape) = body.collision_shape() else { continue };
         let gap = contact_gap(body, world.material.thickness)
@@ -324,20 +324,20 @@ fn solve_colliders(
             contacts.long.measure_after_pushes(new, world.mean_edge, surface, world.level);
         }
         let long = contacts.long.list();
+        let free = neighbours.longest_free_edge;
+        let largest_gap = gap * TRIANGLE_GAP * scales.thickness_range[1];
         if let Some(deformation) = body.deformation_mut().filter(|_| !long.is_empty()) {
-            deformation.pose(part, true);
+            let boxes = long_pairs::boxes(&particles, &world.mesh, (long, free), largest_gap);
+            deformation.pose_features(boxes, part);
         }
         let Some(shape) = body.collision_shape() else { continue };
         if shape.bends().is_some() {
-            let triangle_gap = gap * TRIANGLE_GAP;
-            let largest_gap = triangle_gap * scales.thickness_range[1];
             let pairs = &mut contacts.long_pairs;
             let own = mid_phase::features_of(shape);
             match own.filter(|_| !long.is_empty()) {
                 Some(own) => {
-                    let long = (long, neighbours.longest_free_edge);
                     let search = PairSearch { distance: largest_gap, smooth: neighbours.smooth };
-                    pairs.collect(own, search, &particles, &world.mesh, long);
+                    pairs.collect(own, search, &particles, &world.mesh, (long, free));
                 }
                 None => pairs.clear(),
             }
@@ -346,7 +346,7 @@ fn solve_colliders(
                 features: neighbours.candidates.features(shape),
                 edges: neighbours.candidates.edges,
                 vertices: neighbours.candidates.vertices,
-                gap: triangle_gap,
+                gap: gap * TRIANGLE_GAP,
                 largest_scale: scales.thickness_range[1],
                 max_depth: neighbours.longest_edge * 0.5,
             };

@@ -16,7 +16,7 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::math::columns::Columns;
 use crate::math::max;
 use crate::math::reserve::ReserveTotal;
-use crate::solver::collide::mid_phase::{CandidateRange, Candidates, ColliderPairs};
+use crate::solver::collide::mid_phase::{CandidateRange, Candidates, ColliderPairs, MotionBound};
 use crate::state::colliders::ColliderBody;
 use crate::state::pose::Pose;
 use glam::Vec3;
@@ -48,6 +48,14 @@ pub(crate) struct NearbyBlocks {
     /// Whether the next refresh must rebuild.
     pub(super) is_stale: bool,
     pub(super) candidates: ColliderPairs,
+    /// Scratch: the candidates before the last rebuild.
+    pub(super) earlier: ColliderPairs,
+    /// Scratch: the particles that left their predicted motion, and those with the other corners of
+    /// their triangles.
+    pub(super) moved: Vec<bool>,
+    pub(super) searched: Vec<bool>,
+    /// Scratch: the motion of particles relative to a collider.
+    pub(super) motion_bounds: Vec<MotionBound>,
 }
 
 /// The state of one collider in the broad phase.
@@ -110,6 +118,10 @@ impl NearbyBlocks {
         self.particle_bounds.reserve_total(particle_blocks);
         self.triangle_bounds.reserve_total(triangle_blocks);
         self.candidates.reserve(bodies, particles, triangles);
+        self.earlier.reserve(bodies, particles, triangles);
+        self.moved.reserve_total(particles);
+        self.searched.reserve_total(particles);
+        self.motion_bounds.reserve_total(particles);
         self.is_stale = true;
     }
 
