@@ -18,7 +18,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
 use crate::geometry::closest_points::{interpolate, triangle_to_origin};
 use crate::geometry::relative_motion::{PartMotion, PointMotion};
-use crate::math::TINY;
+use crate::math::{TINY, max};
 use glam::Vec3;
 
 /// Triangles with a BVH over them.
@@ -181,7 +181,8 @@ impl SurfaceTriangle {
 ///
 /// The volume between point and triangle is a cubic polynomial of time (Provot, "Collision and
 /// self-collision handling in cloth model dedicated to design garments", 1997); here it changes its
-/// sign, and the root is bracketed. Triangles with a common edge agree on which one is hit.
+/// sign, and the root is bracketed. Triangles with a common edge agree on which one is hit. The box of
+/// the whole motion relative to the point rules out most.
 #[inline(never)]
 fn moving_crossing(
     [from, to]: [Vec3; 2],
@@ -191,9 +192,20 @@ fn moving_crossing(
         let at = from + (to - from) * time;
         [0, 1, 2].map(|k| before.corners[k] + (now.corners[k] - before.corners[k]) * time - at)
     };
+    let size = |[a, b, c]: [Vec3; 3]| (b - a).length_squared() + (c - a).length_squared();
+    let [first, last] = [relative(0.0), relative(1.0)];
+    let mut box_low = Vec3::INFINITY;
+    let mut box_high = Vec3::NEG_INFINITY;
+    for corner in first.iter().chain(&last) {
+        (box_low, box_high) = (box_low.min(*corner), box_high.max(*corner));
+    }
+    let beside = box_low.max(-box_high).max(Vec3::ZERO);
+    if beside.length_squared() > MISS_TOLERANCE * max(size(first), size(last)) {
+        return None;
+    }
     let volume = |[a, b, c]: [Vec3; 3]| a.dot(b.cross(c));
     let (mut low, mut high) = (0.0, 1.0);
-    let is_negative = volume(relative(0.0)) < 0.0;
+    let is_negative = volume(first) < 0.0;
     for _ in 0..ROOT_STEPS {
         let middle = (low + high) * 0.5;
         if (volume(relative(middle)) < 0.0) == is_negative {
@@ -204,9 +216,7 @@ fn moving_crossing(
     }
     let corners = relative(high);
     let weights = triangle_to_origin(corners);
-    let size =
-        (corners[1] - corners[0]).length_squared() + (corners[2] - corners[0]).length_squared();
-    let is_hit = interpolate(corners, weights).length_squared() <= MISS_TOLERANCE * size;
+    let is_hit = interpolate(corners, weights).length_squared() <= MISS_TOLERANCE * size(corners);
     is_hit.then(|| (high, interpolate(now.corners, weights)))
 }
 
