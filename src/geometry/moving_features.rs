@@ -58,10 +58,10 @@ impl FeatureSources {
 
     fn features(&self, positions: &[Vec3]) -> ShapeFeatures {
         let (mut features, mut bends) = (Features::default(), BendHistogram::default());
-        let at = |v: u32| positions[v as usize];
         for (number, source) in (0..).zip(&self.edges) {
-            features.edges.push(EdgeFeature::flat(source.ends.map(at), source.sides));
-            self.pose_edge(&mut features, number, &at);
+            let ends = source.ends.map(|v| positions[v as usize]);
+            features.edges.push(EdgeFeature::flat(ends, source.sides));
+            self.pose_edge(&mut features, number, positions);
             let bend = features.edges[number as usize].bend;
             if bend.angle > 0.0 {
                 bends.insert(bend);
@@ -71,8 +71,10 @@ impl FeatureSources {
         features.incident_edges = vec![none; self.incident.len()];
         for (number, vertex) in (0..).zip(&self.vertices) {
             let range = &self.starts[number as usize..];
-            features.vertices.push(VertexFeature::flat(at(*vertex), [range[0], range[1]]));
-            self.pose_vertex(&mut features, number, &at);
+            features
+                .vertices
+                .push(VertexFeature::flat(positions[*vertex as usize], [range[0], range[1]]));
+            self.pose_vertex(&mut features, number, positions);
         }
         features.motions =
             vec![
@@ -93,14 +95,15 @@ impl FeatureSources {
     /// `is_near`, with the vertices `at` their positions, and with both its ends as vertex features.
     pub fn visit_sharp_edges(
         &self,
-        at: &dyn Fn(u32) -> Vec3,
+        at: &[Vec3],
         is_near: impl Fn(u32) -> bool,
         is_sharp: impl Fn(&SurfaceBend) -> bool,
         mut visit: impl FnMut(u32, [u32; 2]),
     ) {
         for (number, edge) in (0..).zip(&self.edges) {
             if is_near(edge.triangle) {
-                let bend = bend_at_edge(edge.ends.map(at), edge.opposite.map(at));
+                let place = |v: u32| at[v as usize];
+                let bend = bend_at_edge(edge.ends.map(place), edge.opposite.map(place));
                 if bend.is_some_and(|(_, _, bend)| is_sharp(&bend)) {
                     visit(number, edge.ends.map(|v| self.vertex_feature(v)));
                 }
@@ -130,10 +133,11 @@ impl FeatureSources {
     }
 
     /// Poses an edge, with the vertices `at` their positions, and returns its ends.
-    pub fn pose_edge(&self, to: &mut Features, edge: u32, at: &dyn Fn(u32) -> Vec3) -> [u32; 2] {
+    pub fn pose_edge(&self, to: &mut Features, edge: u32, at: &[Vec3]) -> [u32; 2] {
         let EdgeSource { ends, opposite, sides, .. } = self.edges[edge as usize];
-        let positions = ends.map(at);
-        to.edges[edge as usize] = EdgeFeature::new(positions, opposite.map(at), sides)
+        let place = |v: u32| at[v as usize];
+        let positions = ends.map(place);
+        to.edges[edge as usize] = EdgeFeature::new(positions, opposite.map(place), sides)
             .unwrap_or(EdgeFeature::flat(positions, sides));
         ends
     }
@@ -141,26 +145,27 @@ impl FeatureSources {
     /// Returns the direction of an edge and the normal of its first face, with the vertices `at` their
     /// positions; zero where there is none. The outward direction of a nearly flat edge would turn over
     /// when it bends the other way.
-    pub fn edge_directions(&self, edge: u32, at: &dyn Fn(u32) -> Vec3) -> [Vec3; 2] {
+    pub fn edge_directions(&self, edge: u32, at: &[Vec3]) -> [Vec3; 2] {
         let EdgeSource { ends: [from, to], opposite: [third, _], .. } = self.edges[edge as usize];
-        let along = at(to) - at(from);
-        [along, along.cross(at(third) - at(from))].map(Vec3::normalize_or_zero)
+        let [from, to, third] = [from, to, third].map(|v| at[v as usize]);
+        let along = to - from;
+        [along, along.cross(third - from)].map(Vec3::normalize_or_zero)
     }
 
     /// Returns the directions of the first edge at a vertex.
-    pub fn vertex_directions(&self, vertex: u32, at: &dyn Fn(u32) -> Vec3) -> [Vec3; 2] {
+    pub fn vertex_directions(&self, vertex: u32, at: &[Vec3]) -> [Vec3; 2] {
         self.edge_directions(self.incident(vertex)[0][0], at)
     }
 
     /// Poses a vertex whose edges are posed, and returns its number in the mesh.
-    pub fn pose_vertex(&self, to: &mut Features, vertex: u32, at: &dyn Fn(u32) -> Vec3) -> u32 {
+    pub fn pose_vertex(&self, to: &mut Features, vertex: u32, at: &[Vec3]) -> u32 {
         let own = self.vertices[vertex as usize];
         let first = self.starts[vertex as usize];
-        let mut posed = VertexFeature::flat(at(own), [first; 2]);
+        let mut posed = VertexFeature::flat(at[own as usize], [first; 2]);
         let mut outward = Vec3::ZERO;
         for (place, [edge, end]) in (first as usize..).zip(self.incident(vertex)) {
             let edge = &to.edges[*edge as usize];
-            let along = at(*end) - posed.position;
+            let along = at[*end as usize] - posed.position;
             let length = along.length();
             let direction = along * if length > 0.0 { 1.0 / length } else { 0.0 };
             to.incident_edges[place] = IncidentEdge { direction, normals: edge.normals };

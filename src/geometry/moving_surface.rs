@@ -34,6 +34,8 @@ pub(crate) struct MovingSurface {
     shape: CollisionShape,
     /// The vertices of each triangle.
     corners: Vec<[u32; 3]>,
+    /// Scratch: the vertices at the end and at the start of the part of the tick that is posed [m].
+    placed: [Vec<Vec3>; 2],
     sources: FeatureSources,
     /// What the first search of the tick found near the cloth: triangles, and sharp features with the
     /// edges that these need.
@@ -112,9 +114,15 @@ pub(crate) struct MovingVertices<'a> {
 }
 
 impl MovingVertices<'_> {
-    fn at(&self, vertex: u32, time: f32) -> Vec3 {
-        let (last, next) = (self.last[vertex as usize], self.next[vertex as usize]);
-        if time == 1.0 { next } else { lerp(last, next, time) }
+    /// Sets where the vertices are at the end and at the start of a part of the tick, given by its end
+    /// and its length, in ticks.
+    #[inline(never)]
+    fn place(&self, [end, length]: [f32; 2], [now, before]: &mut [Vec<Vec3>; 2]) {
+        let vertices = self.last.iter().zip(self.next);
+        for ((now, before), (last, next)) in now.iter_mut().zip(before).zip(vertices) {
+            *now = if end == 1.0 { *next } else { lerp(*last, *next, end) };
+            *before = *now - (*next - *last) * length;
+        }
     }
 
     fn motion(&self, vertex: u32) -> Vec3 {
@@ -148,6 +156,7 @@ impl MovingSurface {
         Some(Self {
             shape: CollisionShape::TriangleSurface(surface, features),
             corners: triangles,
+            placed: [positions.to_vec(), positions.to_vec()],
             sources,
             near: ActiveParts::new(counts),
             some: ActiveParts::new(counts),
@@ -316,19 +325,20 @@ impl MovingSurface {
 
     /// Lists the triangles that overlap `bounds` in the tick, and the sharp features at `moment`.
     fn list_near(
-        &self,
+        &mut self,
         vertices: MovingVertices<'_>,
         bounds: Aabb,
         moment: f32,
         is_sharp: &dyn Fn(&SurfaceBend) -> bool,
         near: &mut ActiveParts,
     ) {
+        vertices.place([moment, 0.0], &mut self.placed);
         let CollisionShape::TriangleSurface(surface, _) = &self.shape else { return };
         near.clear();
         let ActiveParts { triangles, edges, vertices: ends } = near;
         surface.overlapping(bounds).for_each(|triangle| triangles.insert(triangle));
         self.sources.visit_sharp_edges(
-            &|v| vertices.at(v, moment),
+            &self.placed[0],
             |triangle| triangles.is_listed[triangle as usize],
             is_sharp,
             |edge, both| {
@@ -368,47 +378,49 @@ impl MovingSurface {
         parts: &ActiveParts,
         [end, length]: [f32; 2],
     ) {
-        let (corners, sources) =
-            (core::mem::take(&mut self.corners), core::mem::take(&mut self.sources));
-        let carry = |v: u32| vertices.motion(v) * length;
-        if let Some((surface, features)) = self.parts() {
-            for triangle in &parts.triangles.list {
-                let own = corners[*triangle as usize];
-                let now = own.map(|v| vertices.at(v, end));
-                let before = [0, 1, 2].map(|k| now[k] - carry(own[k]));
-                surface.pose(*triangle, now, before);
-            }
-            let features: &mut Features = &mut features.features;
-            let at = |v: u32| vertices.at(v, end);
-            let before = |v: u32| at(v) - carry(v);
-            for edge in &parts.edges.list {
-                let ends = sources.pose_edge(features, *edge, &at);
-                if length == 0.0 {
-                    features.motions[*edge as usize].step = RigidStep::NONE;
-                    continue;
-                }
-                let middle = [before(ends[0]) + before(ends[1]), at(ends[0]) + at(ends[1])];
-                features.motions[*edge as usize].step = RigidStep::new(
-                    middle.map(|sum| sum * 0.5),
-                    sources.edge_directions(*edge, &before),
-                    sources.edge_directions(*edge, &at),
-                );
-            }
-            let edge_count = features.edges.len();
-            for vertex in &parts.vertices.list {
-                let own = sources.pose_vertex(features, *vertex, &at);
-                features.motions[edge_count + *vertex as usize].step = if length == 0.0 {
-                    RigidStep::NONE
-                } else {
-                    RigidStep::new(
-                        [before(own), at(own)],
-                        sources.vertex_directions(*vertex, &before),
-                        sources.vertex_directions(*vertex, &at),
-                    )
-                };
-            }
+        vertices.place([end, length], &mut self.placed);
+        let Self {
+            shape: CollisionShape::TriangleSurface(surface, features),
+            corners,
+            placed: [now, before],
+            sources,
+            ..
+        } = self
+        else {
+            return;
+        };
+        for triangle in &parts.triangles.list {
+            let own = corners[*triangle as usize];
+            let posed = [&*now, before].map(|at| own.map(|v| at[v as usize]));
+            surface.pose(*triangle, posed[0], posed[1]);
         }
-        (self.corners, self.sources) = (corners, sources);
+        let features: &mut Features = &mut features.features;
+        for edge in &parts.edges.list {
+            let ends = sources.pose_edge(features, *edge, now);
+            if length == 0.0 {
+                features.motions[*edge as usize].step = RigidStep::NONE;
+                continue;
+            }
+            let middle = |at: &[Vec3]| (at[ends[0] as usize] + at[ends[1] as usize]) * 0.5;
+            features.motions[*edge as usize].step = RigidStep::new(
+                [middle(before), middle(now)],
+                sources.edge_directions(*edge, before),
+                sources.edge_directions(*edge, now),
+            );
+        }
+        let edge_count = features.edges.len();
+        for vertex in &parts.vertices.list {
+            let own = sources.pose_vertex(features, *vertex, now) as usize;
+            features.motions[edge_count + *vertex as usize].step = if length == 0.0 {
+                RigidStep::NONE
+            } else {
+                RigidStep::new(
+                    [before[own], now[own]],
+                    sources.vertex_directions(*vertex, before),
+                    sources.vertex_directions(*vertex, now),
+                )
+            };
+        }
     }
 
     /// Sets the motion of parts in the tick.
@@ -439,23 +451,26 @@ impl MovingSurface {
     }
 
     /// Returns the largest distance that a point which moves along `path` from `at` moves relative to
-    /// triangles near it in the tick [m]; 0 if there are none within `margin` [m].
+    /// triangles near it in the tick, and at least `least` [m].
     pub fn longest_relative_path(
         &self,
         vertices: MovingVertices<'_>,
         [at, path]: [Vec3; 2],
         margin: f32,
+        least: f32,
     ) -> f32 {
-        let CollisionShape::TriangleSurface(surface, _) = &self.shape else { return 0.0 };
+        let CollisionShape::TriangleSurface(surface, _) = &self.shape else { return least };
         let bounds = Aabb::from_points([at, at + path]).expanded(margin);
-        let mut longest2 = 0.0;
+        let mut longest2 = least * least;
         for triangle in surface.overlapping(bounds) {
             let own = self.corners[triangle as usize];
-            if vertices.swept(own).overlaps(&bounds) {
-                longest2 = max((path - vertices.motion_of(own).mean).length_squared(), longest2);
+            let [a, b, c] = own.map(|v| vertices.motion(v));
+            let relative2 = (path - (a + b + c) * (1.0 / 3.0)).length_squared();
+            if relative2 > longest2 && vertices.swept(own).overlaps(&bounds) {
+                longest2 = relative2;
             }
         }
-        longest2.sqrt()
+        max(longest2.sqrt(), least)
     }
 
     /// Returns the box of the displacements of the triangles that may overlap `bounds` in the tick [m];

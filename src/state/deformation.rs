@@ -186,9 +186,9 @@ impl Deformation {
     }
 
     /// See [`MovingSurface::longest_relative_path`].
-    pub fn longest_relative_path(&self, path: [Vec3; 2], margin: f32) -> f32 {
+    pub fn longest_relative_path(&self, path: [Vec3; 2], margin: f32, least: f32) -> f32 {
         let surface = self.surface.as_ref();
-        surface.map_or(0.0, |s| s.longest_relative_path(self.vertices(), path, margin))
+        surface.map_or(least, |s| s.longest_relative_path(self.vertices(), path, margin, least))
     }
 
     /// See [`MovingSurface::motions_near`].

@@ -90,9 +90,10 @@ impl BodyMotion {
         }
     }
 
-    /// Returns how far a point at `x` that moves by `moved` in the tick moves relative to the body
-    /// [m]; 0 if it does not come near its shape. Motion along a plane does not count.
-    pub fn relative_path(&self, body: &ColliderBody, x: Vec3, moved: Vec3) -> f32 {
+    /// Returns how far a point at `x` that moves by `moved` in the tick moves relative to the body, or
+    /// `least` if that is not more [m]; 0 if it does not come near its shape. Motion along a plane does
+    /// not count.
+    pub fn relative_path(&self, body: &ColliderBody, x: Vec3, moved: Vec3, least: f32) -> f32 {
         let path = moved - self.displacement_at(x);
         match self.extent {
             Extent::Box(bounds) => {
@@ -101,7 +102,8 @@ impl BodyMotion {
                 }
                 if let Some(deformation) = body.deformation().filter(|_| self.deforms) {
                     let [from, to] = self.local_path(x, path);
-                    return deformation.longest_relative_path([from, to - from], self.margin);
+                    let path = [from, to - from];
+                    return deformation.longest_relative_path(path, self.margin, least);
                 }
                 let shape = body.collision_shape();
                 let is_near = shape.is_some_and(|shape| self.comes_near(shape, x, path));

@@ -13,8 +13,6 @@
 //! always listed.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::relative_motion::PointMotion;
-use crate::math::columns::Columns;
 use crate::math::{max, min};
 use crate::model::maps::Map;
 use crate::solver::collide::any_moved::any_moved;
@@ -22,9 +20,10 @@ use crate::solver::collide::contact_distance::{
     contact_gap, longest_free_edge, needs_triangle_tests, smoothing,
 };
 use crate::solver::collide::long_triangles::longest_edge_squared;
-use crate::solver::collide::mid_phase::{CandidateRange, Earlier, MotionBound, PairSearch};
+use crate::solver::collide::mid_phase::{CandidateRange, Earlier, PairSearch};
 use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds};
 use crate::solver::collide::particle_bounds;
+use crate::solver::collide::particle_motions::{MotionBound, ParticleMotions, carry_along};
 use crate::solver::world::World;
 use crate::state::colliders::ColliderBody;
 use glam::Vec3;
@@ -139,57 +138,6 @@ fn has_particle_moved(world: &mut World, limit: f32, moment: f32) -> bool {
     has_moved
 }
 
-/// The motion of all particles as a search for pairs sees it.
-struct ParticleMotions<'a> {
-    x: &'a Columns,
-    /// The predicted positions of this substep and the displacements that lead to them.
-    predicted: &'a Columns,
-    displacement: &'a Columns,
-    /// See [`NearbyBlocks`].
-    displacements: &'a [Vec3],
-    /// What is left of the tick, and the length of a substep, in ticks.
-    shares: [f32; 2],
-}
-
-impl ParticleMotions<'_> {
-    /// Returns the position now and at the start of the substep: a fast particle is already far from
-    /// there.
-    fn both(&self, i: usize) -> [Vec3; 2] {
-        [self.x.get(i), self.predicted.get(i) - self.displacement.get(i)]
-    }
-
-    /// Returns the displacement until the end of the tick; zero if no collider deforms.
-    fn forward(&self, i: usize) -> Vec3 {
-        self.displacements.get(i).map_or(Vec3::ZERO, |one| *one * self.shares[0])
-    }
-
-    /// Returns positions whose box contains the motion.
-    fn path(&self, i: usize) -> [Vec3; 3] {
-        let [now, start] = self.both(i);
-        [now, start, now + self.forward(i)]
-    }
-
-    /// Bounds the motion relative to a collider with flat faces, with `distance` [m] around it.
-    fn bound(&self, i: usize, body: &ColliderBody, distance: f32) -> MotionBound {
-        let frames = [body.last.to_transform(), body.next.to_transform()];
-        let [now, start] = self.both(i);
-        let local = |x: Vec3| frames.each_ref().map(|frame| frame.point_to_local(x));
-        let [last, next] = local(now);
-        let forward = self.forward(i);
-        if body.is_deforming() {
-            let displacements = [forward, now - start].map(|one| frames[1].vector_to_local(one));
-            let motion = PointMotion { displacements, shares: self.shares };
-            return MotionBound::new([last, last, next, next], distance).with_motion(motion);
-        }
-        let [from_last, from_next] = local(start);
-        let bound = MotionBound::new([last, from_last, next, from_next], distance);
-        if self.displacements.is_empty() {
-            return bound;
-        }
-        bound.grown(frames[1].vector_to_local(forward))
-    }
-}
-
 /// Returns how near features of a collider must be to be candidates [m].
 fn search_distance(body: &ColliderBody, entry: &ColliderEntry, world_gap: f32, margin: f32) -> f32 {
     let arc = body.collision_shape().map_or(0.0, |shape| body.max_arc_deviation(shape));
@@ -253,7 +201,7 @@ fn predict_moved(world: &mut World, margin: f32, moment: f32) -> bool {
         let distance = search_distance(body, entry, gap, margin);
         let mut bounds = Aabb::EMPTY;
         let searched = (0..).zip(&nearby.searched).filter(|(_, is_searched)| **is_searched);
-        searched.for_each(|(i, _)| bounds.merge(motions.bound(i, body, distance).bounds()));
+        searched.for_each(|(i, _)| bounds.merge(&motions.bound(i, body, distance).bounds));
         if !deformation.is_measured(&bounds) {
             return false;
         }
@@ -276,6 +224,9 @@ fn rebuild(world: &mut World, margin: f32, moment: f32, is_partial: bool) {
         nearby.displacements.clear();
         if is_any_deforming {
             nearby.displacements.extend((0..count).map(|i| world.particles.v.get(i) * tick));
+            for body in world.colliders.iter().filter(|body| body.is_deforming()) {
+                carry_along(body, x, margin, &mut nearby.displacements);
+            }
         }
         nearby.positions_at_rebuild.copy_from(x);
     }
@@ -354,10 +305,10 @@ fn rebuild(world: &mut World, margin: f32, moment: f32, is_partial: bool) {
                 if is_partial {
                     let moved = bounds.iter().zip(&nearby.searched);
                     let boxes = moved.filter(|(_, is_searched)| **is_searched);
-                    deformation.pose_some_for_search(boxes.map(|(one, _)| *one.bounds()), moment);
+                    deformation.pose_some_for_search(boxes.map(|(one, _)| one.bounds), moment);
                 } else {
                     let mut all = Aabb::EMPTY;
-                    bounds.iter().for_each(|one| all.merge(one.bounds()));
+                    bounds.iter().for_each(|one| all.merge(&one.bounds));
                     deformation.pose_for_search(all, moment, &|bend| !search.is_smooth(bend));
                 }
             }

@@ -20,11 +20,10 @@ use crate::geometry::bends::SurfaceBend;
 use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{EdgeFeature, Feature, Features, ShapeFeatures};
-use crate::geometry::relative_motion::PointMotion;
 use crate::math::max;
 use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Mesh, NONE};
-use glam::Vec3;
+use crate::solver::collide::particle_motions::MotionBound;
 
 /// Triangles that query the features together; on a grid they are mostly neighbours.
 const BLOCK: usize = 32;
@@ -110,59 +109,6 @@ impl<'a> Candidates<'a> {
     /// Returns the features that the indices of pairs refer to.
     pub fn features(&self, shape: &'a CollisionShape) -> &'a Features {
         features_of(shape).map_or(self.terrain_features, |own| &own.features)
-    }
-}
-
-/// A ball that contains all local positions of a particle, and the box of everything that it may
-/// touch.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct MotionBound {
-    center: Vec3,
-    /// [m]
-    radius: f32,
-    bounds: Aabb,
-    /// The motion beyond the ball, which counts relative to a moving surface.
-    motion: PointMotion,
-}
-
-impl MotionBound {
-    /// The bound of a particle that is not searched for.
-    pub const NONE: Self =
-        Self { center: Vec3::ZERO, radius: 0.0, bounds: Aabb::EMPTY, motion: PointMotion::NONE };
-
-    /// Bounds four positions; `distance` [m] is added to the box.
-    pub fn new(positions: [Vec3; 4], distance: f32) -> Self {
-        let center = (positions[0] + positions[1] + positions[2] + positions[3]) * 0.25;
-        let mut radius2 = 0.0;
-        for position in positions {
-            radius2 = max((position - center).length_squared(), radius2);
-        }
-        let radius = radius2.sqrt();
-        let half = Vec3::splat(radius + distance);
-        let bounds = Aabb { low: center - half, high: center + half };
-        Self { center, radius, bounds, motion: PointMotion::default() }
-    }
-
-    /// Returns the box of everything that the particle may touch [m].
-    pub fn bounds(&self) -> &Aabb {
-        &self.bounds
-    }
-
-    /// Grows the ball until it also contains all positions moved by `displacement` [m].
-    pub fn grown(self, displacement: Vec3) -> Self {
-        let (half, length) = (displacement * 0.5, displacement.length() * 0.5);
-        let low = self.bounds.low + half - Vec3::splat(length);
-        let bounds = Aabb { low, high: self.bounds.high + half + Vec3::splat(length) };
-        Self { center: self.center + half, radius: self.radius + length, bounds, ..self }
-    }
-
-    /// Adds a motion to the box.
-    pub fn with_motion(self, motion: PointMotion) -> Self {
-        let [forward, backward] = motion.displacements;
-        let low = forward.min(-backward).min(Vec3::ZERO);
-        let high = forward.max(-backward).max(Vec3::ZERO);
-        let bounds = Aabb { low: self.bounds.low + low, high: self.bounds.high + high };
-        Self { bounds, motion, ..self }
     }
 }
 

@@ -33,6 +33,7 @@ mod long_triangles;
 mod mid_phase;
 mod nearby_blocks;
 mod particle_bounds;
+mod particle_motions;
 mod particle_vs_shape;
 mod push_accumulator;
 pub(crate) mod relative_motion;

@@ -108,7 +108,8 @@ fn largest_ratio(world: &World, bodies: &[BodyMotion], least: f32) -> f32 {
                 continue;
             }
             for i in block.clone().filter(|i| p.w[*i] > 0.0) {
-                let path = motion.relative_path(body, p.x.get(i), p.v.get(i) * tick);
+                let (least, moved) = (most * motion.step, p.v.get(i) * tick);
+                let path = motion.relative_path(body, p.x.get(i), moved, least);
                 most = max(path / motion.step, most);
             }
         }
