@@ -41,6 +41,10 @@ const REBUILD_AT: f32 = 0.95;
 /// A partial search counts as cheaper if no more than one in this many particles has moved.
 const FEW: usize = 4;
 
+/// Edges longer than this share of the longest free edge are listed: links may stretch them beyond it
+/// within a substep.
+const NEARLY: f32 = 0.95;
+
 /// Updates the swept bounds of all colliders at the start of a tick.
 pub(super) fn update_swept_bounds(world: &mut World) {
     let nearby = &mut world.scratch.contacts.nearby;
@@ -116,7 +120,7 @@ fn refresh_long_triangles(world: &mut World) {
     let entries = contacts.nearby.entries.iter();
     let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
     let limit = near.fold(f32::INFINITY, |least, entry| min(entry.longest_free_edge, least));
-    contacts.long.refresh(limit, x, &world.mesh.triangles, world.level);
+    contacts.long.refresh(limit * NEARLY, x, &world.mesh.triangles, world.level);
 }
 
 /// Returns whether a particle is farther than `limit` [m] from where the last rebuild predicted it at
