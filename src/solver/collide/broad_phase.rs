@@ -88,8 +88,9 @@ pub(super) fn update_swept_bounds(world: &mut World) {
     }
 }
 
-/// Rebuilds blocks and candidate pairs if they are stale, at `moment` of the tick.
-pub(crate) fn refresh(world: &mut World, moment: f32) {
+/// Rebuilds blocks and candidate pairs if they are stale, for a part of the tick: its end and its
+/// length, in ticks.
+pub(crate) fn refresh(world: &mut World, part: [f32; 2]) {
     let nearby = &world.scratch.contacts.nearby;
     if nearby.entries.is_empty() {
         return;
@@ -99,10 +100,10 @@ pub(crate) fn refresh(world: &mut World, moment: f32) {
         || nearby.triangles_at_rebuild != world.mesh.triangles.len();
     let is_stale = nearby.is_stale || has_topology_changed;
     if is_stale {
-        rebuild(world, margin, moment, false);
-    } else if has_particle_moved(world, margin * REBUILD_AT, moment) {
-        let is_partial = predict_moved(world, margin, moment);
-        rebuild(world, margin, moment, is_partial);
+        rebuild(world, margin, part, false);
+    } else if has_particle_moved(world, margin * REBUILD_AT, part[0]) {
+        let is_partial = predict_moved(world, margin, part);
+        rebuild(world, margin, part, is_partial);
     }
     refresh_long_triangles(world);
 }
@@ -148,14 +149,14 @@ fn search_distance(body: &ColliderBody, entry: &ColliderEntry, world_gap: f32, m
     margin + world_gap + entry.sagitta_margin + arc
 }
 
-/// Predicts the particles that left their predicted motion anew, from `moment` of the tick on, and
+/// Predicts the particles that left their predicted motion anew, from the end of a part of the tick on, and
 /// lists them. Returns whether pairs can be searched for these alone: they are few, and all colliders
 /// with flat faces near the cloth deform, where the first search of the tick measured them.
-fn predict_moved(world: &mut World, margin: f32, moment: f32) -> bool {
+fn predict_moved(world: &mut World, margin: f32, [moment, length]: [f32; 2]) -> bool {
     let tick = world.settings.tick;
     let limit = margin * REBUILD_AT;
     let [_, largest] = world.maps.range(Map::Thickness);
-    let shares = [max(1.0 - moment, 0.0), 1.0 / world.substeps as f32];
+    let shares = [max(1.0 - moment, 0.0), length];
     let (scratch, x) = (&mut world.scratch, &world.particles.x);
     let nearby = &mut scratch.contacts.nearby;
     if nearby.displacements.is_empty() {
@@ -216,10 +217,10 @@ fn predict_moved(world: &mut World, margin: f32, moment: f32) -> bool {
 /// Rebuilds the blocks and candidate pairs of all colliders, to hold until a particle is `margin` [m]
 /// from where it is predicted: where it is now, or beside surfaces that deform where its velocity
 /// takes it. A partial rebuild searches for pairs of the particles that [`predict_moved`] listed.
-fn rebuild(world: &mut World, margin: f32, moment: f32, is_partial: bool) {
+fn rebuild(world: &mut World, margin: f32, [moment, length]: [f32; 2], is_partial: bool) {
     let is_any_deforming = world.colliders.iter().any(|body| body.is_deforming());
     let tick = world.settings.tick;
-    let shares = [max(1.0 - moment, 0.0), 1.0 / world.substeps as f32];
+    let shares = [max(1.0 - moment, 0.0), length];
     let (scratch, x) = (&mut world.scratch, &world.particles.x);
     let nearby = &mut scratch.contacts.nearby;
     let count = world.particles.len();

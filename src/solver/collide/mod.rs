@@ -159,7 +159,7 @@ pub(crate) fn project_out(world: &mut World, projection: Projection) {
     if projection == Projection::Surface {
         world.scratch.contacts.long.invalidate();
     }
-    broad_phase::refresh(world, 1.0);
+    broad_phase::refresh(world, [1.0, 0.0]);
     let frames = |body: &ColliderBody| [body.next.to_transform(); 2];
     solve_colliders(world, &frames, [1.0, 0.0], Some(projection));
     world.scratch.contacts.collider_contacts.clear();
@@ -187,7 +187,7 @@ pub(crate) fn project_out_in_substep(
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
-    broad_phase::refresh(world, substep_part(substep, substeps)[0]);
+    broad_phase::refresh(world, substep_part(substep, substeps));
     solve_colliders(
         world,
         &|body| substep_frames(body, substep, substeps),
@@ -230,7 +230,7 @@ pub(crate) fn project_out_in_substep(
 
 /// Finds the pairs of this substep.
 pub(crate) fn refresh_pairs(world: &mut World, substep: u32) {
-    broad_phase::refresh(world, substep_part(substep, world.substeps)[0]);
+    broad_phase::refresh(world, substep_part(substep, world.substeps));
 }
 
 /// Pushes free particles, edges and triangles out of every collider in its pose at the end of this

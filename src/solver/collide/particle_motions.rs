@@ -75,7 +75,8 @@ pub(super) struct ParticleMotions<'a> {
     pub displacement: &'a Columns,
     /// Displacements in a tick, empty if no collider deforms, see `nearby_blocks` [m].
     pub displacements: &'a [Vec3],
-    /// What is left of the tick, and the length of a substep, in ticks.
+    /// What is left of the tick, and the length of the part of it that leads to now, in ticks: 0 after
+    /// the last substep, when colliders rest.
     pub shares: [f32; 2],
 }
 

@@ -21,9 +21,9 @@
 //!
 //! A cloth that pins, grabs or anchors hold apart cannot satisfy the limit. This is reported once.
 //! Once they release it, its last tick is not within the limit, so there is no state to roll back
-//! to. It then contracts by tethers and up to 2000 rounds, over several ticks if it was stretched
-//! far. The particles that move get zero velocity, so that the contraction does not fling the
-//! cloth.
+//! to. It then contracts by tethers and up to 2000 rounds while these make progress, over several
+//! ticks if it was stretched far. The particles that move get zero velocity, so that the contraction
+//! does not fling the cloth.
 //!
 //! **Velocities** (4). The corrections x − x₀ of the tick of length T count as velocity, but
 //! bounded: links that contradict each other push a particle out and the limit pulls it back, which
@@ -43,6 +43,7 @@
 //! it now.
 
 use crate::math::columns::Columns;
+use crate::math::max;
 use crate::model::links::{LinkKind, Links};
 use crate::solver::collide::{self, Projection};
 use crate::solver::kinematic::anchors;
@@ -65,6 +66,11 @@ const ROUNDING_MARGIN: f32 = 4.0e-3;
 
 /// The share of `max_stretch` that a projected link keeps, so that the sweeps end.
 const TARGET_SHARE: f32 = 0.5;
+
+/// Number of rounds between two measurements of a contraction, and the share of the excess that it
+/// must lose in them. Otherwise colliders hold the cloth apart, and it goes on in the next tick.
+const CONTRACTION_CHECK: u32 = 20;
+const LEAST_PROGRESS: f32 = 0.05;
 
 /// Number of rounds between two passes along the pin order.
 const ROUNDS_PER_PIN_SWEEP: u32 = 8;
@@ -112,6 +118,7 @@ fn project_all(world: &mut World, limit: f32) {
     let has_anchors = !world.anchors.is_empty();
     let is_free_again = was_over && !has_anchors && !is_held_apart(world, limit);
     tethers::refresh_pin_positions(world);
+    let mut excess = f32::INFINITY;
     for round in 0..if is_free_again { MAX_CONTRACTION_ROUNDS } else { MAX_ROUNDS } {
         if is_free_again {
             tethers::project(world, target);
@@ -136,6 +143,13 @@ fn project_all(world: &mut World, limit: f32) {
         if find_over_stretched(world, limit).is_none() {
             break;
         }
+        if is_free_again && round % CONTRACTION_CHECK == CONTRACTION_CHECK - 1 {
+            let left = largest_excess(world, limit);
+            if left > excess * (1.0 - LEAST_PROGRESS) {
+                break;
+            }
+            excess = left;
+        }
     }
     if is_free_again {
         // The last tick is no state to roll back to, and the contraction must not fling the cloth.
@@ -154,6 +168,19 @@ fn project_all(world: &mut World, limit: f32) {
         anchors::project_at_end(world);
         update_velocities(world);
     }
+}
+
+/// Returns the largest excess of a link over `limit` times its rest length, as a share of that.
+fn largest_excess(world: &World, limit: f32) -> f32 {
+    let x = &world.particles.x;
+    let mut most = 0.0;
+    for links in [&world.constraints.links, &world.constraints.dynamic] {
+        for at in (0..links.len()).filter(|at| is_over_stretched(links, *at, x, limit)) {
+            let span = x.get(links.b[at] as usize) - x.get(links.a[at] as usize);
+            most = max(span.length() / (links.rest[at] * limit) - 1.0, most);
+        }
+    }
+    most
 }
 
 /// Sets the velocities of all particles to zero that moved since `scratch.predicted` was stored. What
