@@ -107,6 +107,15 @@ impl SceneInstance {
         }
     }
 
+    /// Returns the cloths, and the figure if there is one.
+    pub fn parts(&mut self) -> (&mut [Cloth], Option<&DressedBody>) {
+        let figure = match &self.mover {
+            Some(Mover::Figure(body)) => Some(&**body),
+            _ => None,
+        };
+        (&mut self.cloths, figure)
+    }
+
     /// Updates what is drawn of the figure, if there is one.
     ///
     /// # Errors

@@ -17,7 +17,7 @@ use std::f32::consts::TAU;
 type Section = [f32; 4];
 
 /// Trunk: heights above the sole.
-const TRUNK: [Section; 16] = [
+const TRUNK: [Section; 18] = [
     [0.806, 0.002, 0.002, -0.01],
     [0.812, 0.070, 0.055, -0.01],
     [0.850, 0.145, 0.098, -0.012],
@@ -31,21 +31,23 @@ const TRUNK: [Section; 16] = [
     [1.370, 0.150, 0.079, -0.008],
     [1.412, 0.124, 0.065, -0.013],
     [1.438, 0.080, 0.055, -0.014],
-    [1.462, 0.055, 0.049, -0.011],
-    [1.500, 0.048, 0.048, -0.005],
-    [1.545, 0.047, 0.050, 0.001],
+    [1.460, 0.056, 0.049, -0.011],
+    [1.492, 0.047, 0.046, -0.006],
+    [1.530, 0.043, 0.044, -0.002],
+    [1.560, 0.034, 0.034, 0.002],
+    [1.575, 0.002, 0.002, 0.003],
 ];
 /// Head; its lower end is inside the neck.
 const HEAD: [Section; 9] = [
-    [1.522, 0.002, 0.002, 0.018],
-    [1.528, 0.026, 0.034, 0.026],
-    [1.556, 0.050, 0.066, 0.018],
-    [1.600, 0.067, 0.088, 0.012],
-    [1.650, 0.075, 0.097, 0.008],
-    [1.700, 0.071, 0.092, 0.004],
-    [1.736, 0.052, 0.068, 0.001],
-    [1.754, 0.026, 0.034, 0.0],
-    [1.759, 0.002, 0.002, 0.0],
+    [1.508, 0.002, 0.002, 0.028],
+    [1.513, 0.024, 0.036, 0.025],
+    [1.536, 0.046, 0.068, 0.014],
+    [1.582, 0.064, 0.085, 0.010],
+    [1.632, 0.071, 0.092, 0.008],
+    [1.680, 0.067, 0.087, 0.004],
+    [1.714, 0.050, 0.065, 0.001],
+    [1.732, 0.026, 0.034, 0.0],
+    [1.737, 0.002, 0.002, 0.0],
 ];
 /// Leg, around the axis through hip, knee and ankle.
 const LEG: [Section; 17] = [
@@ -128,11 +130,11 @@ struct Loft<'a> {
 }
 
 impl Body {
-    /// Creates the mesh that is drawn: all parts, finely.
-    pub fn drawn() -> Self {
+    /// Creates the mesh in the rest pose, without normals.
+    pub fn new() -> Self {
         let mut body = Self::default();
-        body.add_trunk(40, 3);
-        body.add_limbs(28, 3);
+        body.add_trunk();
+        body.add_legs();
         let head = Loft { sections: &HEAD, columns: 32, rings: 3 };
         body.add(head, |p| p, |_| ([Bone::Head; 2], 0.0));
         for side in 0..2 {
@@ -141,7 +143,9 @@ impl Body {
             let foot = Loft { sections: &FOOT, columns: 20, rings: 3 };
             // Along z, with the depth along y. Swapping axes mirrors the loft.
             let turn = |p: Vec3| Vec3::new(x + p.x, p.z, p.y);
-            body.add_rings(foot, true, turn, |_| ([Bone::Foot(side); 2], 0.0));
+            body.add_rings(foot, true, turn, |z| {
+                ([Bone::Foot(side), Bone::Toes(side)], smooth(0.085, 0.125, z))
+            });
             let arm = Loft { sections: &ARM, columns: 24, rings: 3 };
             let place = move |p: Vec3| p + Vec3::X * (sign * SHOULDER);
             body.add(arm, place, |y| {
@@ -152,16 +156,8 @@ impl Body {
         body
     }
 
-    /// Creates the mesh that the cloth collides with: trunk and legs, as fine as the cloth.
-    pub fn collision() -> Self {
-        let mut body = Self::default();
-        body.add_trunk(24, 1);
-        body.add_limbs(16, 1);
-        body
-    }
-
-    fn add_trunk(&mut self, columns: u32, rings: u32) {
-        let trunk = Loft { sections: &TRUNK, columns, rings };
+    fn add_trunk(&mut self) {
+        let trunk = Loft { sections: &TRUNK, columns: 40, rings: 3 };
         self.add(
             trunk,
             |p| p,
@@ -175,10 +171,10 @@ impl Body {
         );
     }
 
-    fn add_limbs(&mut self, columns: u32, rings: u32) {
+    fn add_legs(&mut self) {
         for side in 0..2 {
             let x = Bone::Thigh(side).joint().x;
-            let leg = Loft { sections: &LEG, columns, rings };
+            let leg = Loft { sections: &LEG, columns: 28, rings: 3 };
             self.add(
                 leg,
                 move |p| p + Vec3::X * x,
@@ -272,18 +268,6 @@ impl Body {
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }
-
-    /// Returns how often the surface winds around a point: about 0 outside, 1 or more inside (van
-    /// Oosterom and Strackee, 1983).
-    pub fn winding_number(&self, point: Vec3) -> f32 {
-        let angle = |t: &[u32]| {
-            let [a, b, c] = [t[0], t[1], t[2]].map(|i| self.positions[i as usize] - point);
-            let [la, lb, lc] = [a, b, c].map(Vec3::length);
-            let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-            2.0 * a.dot(b.cross(c)).atan2(below)
-        };
-        self.indices.chunks_exact(3).map(angle).sum::<f32>() / (2.0 * TAU)
-    }
 }
 
 /// Interpolates the sections with a Catmull-Rom spline; sizes stay above 2 mm.
@@ -304,6 +288,19 @@ fn section_at(sections: &[Section], place: f32) -> Section {
     })
 }
 
+/// Returns how often the surface winds around a point: about 0 outside, 1 or more inside (van
+/// Oosterom and Strackee, 1983).
+#[cfg(test)]
+pub(super) fn winding_number(body: &Body, point: Vec3) -> f32 {
+    let angle = |t: &[u32]| {
+        let [a, b, c] = [t[0], t[1], t[2]].map(|i| body.positions[i as usize] - point);
+        let [la, lb, lc] = [a, b, c].map(Vec3::length);
+        let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+        2.0 * a.dot(b.cross(c)).atan2(below)
+    };
+    body.indices.chunks_exact(3).map(angle).sum::<f32>() / (2.0 * TAU)
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::motion::pose_at;
@@ -311,7 +308,8 @@ mod tests {
 
     #[test]
     fn every_part_is_closed_and_faces_outwards() {
-        for mut body in [Body::drawn(), Body::collision()] {
+        {
+            let mut body = Body::new();
             body.pose(&pose_at(0));
             let edges: Vec<[u32; 2]> = body
                 .indices
@@ -326,15 +324,10 @@ mod tests {
                 assert!(sorted.binary_search(&[b, a]).is_ok(), "the edge {a}-{b} is open");
             }
             let chest = pose_at(0).carry(Bone::Chest, Vec3::new(0.0, 1.2, 0.0));
-            assert!((body.winding_number(chest) - 1.0).abs() < 1.0e-3);
-            assert!(body.winding_number(chest + Vec3::Y).abs() < 1.0e-3);
+            assert!((winding_number(&body, chest) - 1.0).abs() < 1.0e-3);
+            assert!(winding_number(&body, chest + Vec3::Y).abs() < 1.0e-3);
             let knee = pose_at(0).bone(Bone::Shin(0)).position;
-            assert!((body.winding_number(knee) - 1.0).abs() < 1.0e-3);
+            assert!((winding_number(&body, knee) - 1.0).abs() < 1.0e-3);
         }
-    }
-
-    #[test]
-    fn the_collision_mesh_is_small() {
-        assert!(Body::collision().rest.len() <= 1500, "{}", Body::collision().rest.len());
     }
 }

@@ -27,9 +27,11 @@ pub const SKIRT: [u32; 2] = [48, 13];
 const SHIRT: [u32; 3] = [36, 9, 6];
 /// Columns of a panel of the shirt on each side of its middle.
 const PANEL: i32 = 6;
+/// Columns of the shoulder seam that the body holds, on each side of the middle.
+const HELD_COLUMNS: f32 = 4.5;
 /// Columns of the neckline on each side of the middle, and its rows in front and at the back.
 const NECK: i32 = 2;
-const NECK_ROWS: [u32; 2] = [3, 1];
+const NECK_ROWS: [u32; 2] = [3, 2];
 /// Margin at both sides of the texture, so that the printed hem runs around and not up the seam.
 const MARGIN: f32 = 0.06;
 
@@ -41,7 +43,7 @@ pub const SHIRT_SPAN: Vec2 = Vec2::new(1.5, 0.60);
 /// Profile of the skirt: height above the sole, half width and half depth [m]. A fitted yoke ends
 /// at the hips.
 const SKIRT_PROFILE: [[f32; 3]; 4] =
-    [[1.065, 0.131, 0.094], [0.995, 0.158, 0.112], [0.92, 0.184, 0.139], [0.555, 0.445, 0.405]];
+    [[1.065, 0.134, 0.099], [1.025, 0.150, 0.116], [0.92, 0.215, 0.180], [0.555, 0.450, 0.410]];
 
 /// A sampled garment.
 #[derive(Clone, Debug, Default)]
@@ -151,8 +153,11 @@ pub fn shirt(detail: u32) -> Panel {
     let stored = if detail > 1 { columns + 1 } else { columns };
     let rows = lower + upper;
     let sample = |column: f32, row: f32| {
-        let is_top = row > (SHIRT[1] + SHIRT[2]) as f32 - 0.01;
-        (shirt_point(column, row), shirt_texture(column, row), is_top)
+        let is_seam = row > (SHIRT[1] + SHIRT[2]) as f32 - 0.01;
+        // The sleeve ends hang free.
+        let from_middle = (column - SHIRT[0] as f32 / 2.0).abs();
+        let is_held = is_seam && from_middle < HELD_COLUMNS;
+        (shirt_point(column, row), shirt_texture(column, row), is_held)
     };
     let mut builder = Builder::new(stored, rows + 1, sample);
     for row in 0..rows {
@@ -198,18 +203,20 @@ fn shirt_point(column: f32, row: f32) -> Vec3 {
     let across = -signed_power(angle.sin(), 0.85);
     let ahead = -signed_power(angle.cos(), 0.7);
     let up = (row / SHIRT[1] as f32).min(1.0);
-    let (low, high) = (0.925, 1.215);
-    let wide = 0.232 + up * (0.176 - 0.232);
-    let deep = 0.186 + up * (0.150 - 0.186);
+    let (low, high) = (0.925, 1.225);
+    let wide = 0.250 + up * (0.174 - 0.250);
+    let deep = 0.214 + up * (0.148 - 0.214);
     let over = ((row - SHIRT[1] as f32) / SHIRT[2] as f32).max(0.0);
     if over == 0.0 {
         return Vec3::new(wide * across, low + up * (high - low), deep * ahead);
     }
-    let x = wide * across * (1.0 + 0.32 * over * over);
+    let x = wide * across * (1.0 + 0.19 * over * over);
     let (sin, cos) = (FRAC_PI_2 * over.min(1.0)).sin_cos();
-    // The shoulder seam falls to the sides, and lies a little behind the middle.
-    let seam = 1.482 - 0.22 * x.abs();
-    let cos = if over > 0.999 { 0.0 } else { cos };
+    // The shoulder seam rises to the neck, falls over the shoulder, and lies a little behind the
+    // middle.
+    let (inner, outer) = ((0.11 - x.abs()).max(0.0), (x.abs() - 0.155).max(0.0));
+    let seam = 1.446 + 0.5 * inner - 12.0 * outer * outer;
+    let cos = if over > 0.999 { 0.0 } else { cos.powf(0.7) };
     Vec3::new(x, high + (seam - high) * sin, deep * ahead * cos - 0.012 * over)
 }
 

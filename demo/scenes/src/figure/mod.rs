@@ -1,12 +1,13 @@
 //! Scene: a mannequin walks in a circle and kicks, in a skirt and a loose shirt.
 //!
 //! ```text
-//! motion ─▶ pose ─┬─▶ skinned mesh (trunk, legs), capsules (arms) ─▶ colliders ┐
-//!                 └─▶ waist, shoulder seams ─▶ attachments ────────────────────┴─▶ cloth ─▶ skins
+//! motion ─▶ pose ─┬─▶ capsules ─▶ colliders ───────────────┬─▶ coarse cloth ─▶ fine skins
+//!                 ├─▶ waist, shoulder seams ─▶ attachments ┘
+//!                 └─▶ skinned mesh of the body
 //! ```
 //! Method: both garments are pieces of one coarse cloth with surface collision, so that they also
-//! collide with each other. The body is a skinned mesh that gets its new vertices before every
-//! tick. What is drawn is a fine skin of each garment, and a finer mesh of the body.
+//! collide with each other. They collide with tapered capsules around the bones of the body. What is
+//! drawn is a fine skin of each garment, and a skinned mesh of the body just inside the capsules.
 //!
 //! Reads nothing; writes a [`SceneInstance`].
 //!
@@ -27,18 +28,59 @@ use muslin::{
     Attachment, Cloth, Collider, ColliderDesc, Material, MeshDesc, Preset, Result, SelfCollision,
     Settings, Shape, Skin, SkinDesc,
 };
-use skeleton::{Bone, Pose};
+use skeleton::{Bone, Pose, SHOULDER, SIDES};
 
 /// Gap between body and cloth [m].
 const GAP: f32 = 0.006;
 /// Friction of the body.
 const FRICTION: f32 = 0.25;
-/// Radii of the capsules of an arm at shoulder, elbow and hand [m].
-const ARM_RADII: [f32; 3] = [0.044, 0.034, 0.030];
-/// End of the hand below the elbow [m].
-const HAND: f32 = 0.37;
-/// Distance from a capsule's ends to those of the bone [m].
-const INSET: f32 = 0.01;
+/// A tapered capsule that a bone carries: both ends in the rest pose, on the left side, and their
+/// radii [m].
+struct BodyCapsule {
+    bone: fn(usize) -> Bone,
+    ends: [[f32; 3]; 2],
+    radii: [f32; 2],
+}
+
+/// The capsules of one side of the body, from the top down. Two beside each other make the oval
+/// cross-section of the trunk.
+const CAPSULES: [BodyCapsule; 7] = [
+    BodyCapsule {
+        bone: |_| Bone::Chest,
+        ends: [[0.045, 1.398, -0.012], [0.130, 1.385, -0.008]],
+        radii: [0.050, 0.045],
+    },
+    BodyCapsule {
+        bone: |_| Bone::Chest,
+        ends: [[0.040, 1.285, 0.009], [0.030, 1.135, 0.002]],
+        radii: [0.108, 0.088],
+    },
+    BodyCapsule {
+        bone: |_| Bone::Pelvis,
+        ends: [[0.030, 1.055, -0.002], [0.046, 0.915, -0.013]],
+        radii: [0.091, 0.114],
+    },
+    BodyCapsule {
+        bone: Bone::UpperArm,
+        ends: [[SHOULDER, 1.385, 0.0], [SHOULDER, 1.105, 0.0]],
+        radii: [0.047, 0.034],
+    },
+    BodyCapsule {
+        bone: Bone::Forearm,
+        ends: [[SHOULDER, 1.105, 0.0], [SHOULDER, 0.725, 0.006]],
+        radii: [0.034, 0.036],
+    },
+    BodyCapsule {
+        bone: Bone::Thigh,
+        ends: [[0.088, 0.885, 0.002], [0.088, 0.490, 0.004]],
+        radii: [0.097, 0.063],
+    },
+    BodyCapsule {
+        bone: Bone::Shin,
+        ends: [[0.088, 0.440, -0.004], [0.088, 0.110, -0.002]],
+        radii: [0.062, 0.036],
+    },
+];
 
 /// A figure in a skirt and a shirt.
 #[derive(Clone, Copy, Debug)]
@@ -50,11 +92,9 @@ pub struct DressedBody {
     pose: Pose,
     /// Number of ticks that the figure has moved for.
     ticks: u32,
-    collision: Body,
     drawn: Body,
-    trunk: Collider,
-    /// Upper arm and forearm of each side.
-    arms: [[Collider; 2]; 2],
+    /// The colliders of [`capsules`].
+    capsules: Vec<Collider>,
     waist: Attachment,
     shoulders: Attachment,
     /// Skirt and shirt.
@@ -97,23 +137,10 @@ impl Figure {
         let waist = attach(&mut cloth, &lower.held, Bone::Pelvis)?;
         let shoulders = attach(&mut cloth, &seams, Bone::Chest)?;
 
-        let [mut collision, mut drawn] = [Body::collision(), Body::drawn()];
-        collision.pose(&pose);
-        drawn.pose(&pose);
-        drawn.update_normals();
-        let trunk = cloth.add_collider(&ColliderDesc {
-            shape: Shape::Mesh,
-            positions: collision.positions().to_vec(),
-            indices: collision.indices().to_vec(),
-            thickness: GAP,
-            friction: FRICTION,
-            ..ColliderDesc::default()
-        })?;
-        let mut arm = |side: usize| -> Result<[Collider; 2]> {
-            let [upper, lower] = arm_capsules(&pose, side);
-            Ok([cloth.add_collider(&upper)?, cloth.add_collider(&lower)?])
-        };
-        let arms = [arm(0)?, arm(1)?];
+        let mut colliders = Vec::new();
+        for desc in capsules(&pose) {
+            colliders.push(cloth.add_collider(&desc)?);
+        }
         let skin = |panel: &Panel, bone: Bone| {
             let mut desc = SkinDesc::default();
             desc.positions = worn(panel, bone);
@@ -123,27 +150,29 @@ impl Figure {
         };
         let skins =
             [skin(&skirt(SKIN_DETAIL), Bone::Pelvis)?, skin(&shirt(SKIN_DETAIL), Bone::Chest)?];
-        let body =
-            DressedBody { pose, ticks: 0, collision, drawn, trunk, arms, waist, shoulders, skins };
+        let mut drawn = Body::new();
+        drawn.pose(&pose);
+        drawn.update_normals();
+        let capsules = colliders;
+        let body = DressedBody { pose, ticks: 0, drawn, capsules, waist, shoulders, skins };
         Ok(SceneInstance::with_figure(cloth, body))
     }
 }
 
-/// Returns the capsules around the upper arm and the forearm of a side.
-fn arm_capsules(pose: &Pose, side: usize) -> [ColliderDesc; 2] {
-    let length = Bone::UpperArm(side).joint().y - Bone::Forearm(side).joint().y;
-    let ends = [(Bone::UpperArm(side), length), (Bone::Forearm(side), HAND - ARM_RADII[2])];
-    let mut radii = ARM_RADII.windows(2);
-    ends.map(|(bone, length)| {
-        let [top, bottom] = radii.next().map_or([0.0; 2], |pair| [pair[0], pair[1]]);
-        let (position, rotation) = capsule_pose(pose, bone, length);
+/// Returns the capsules of the body in a pose.
+fn capsules(pose: &Pose) -> impl Iterator<Item = ColliderDesc> + '_ {
+    CAPSULES.iter().flat_map(|capsule| [(capsule, 0), (capsule, 1)]).map(|(capsule, side)| {
+        let bone = (capsule.bone)(side);
+        let [top, bottom] = capsule.ends.map(|[x, y, z]| Vec3::new(SIDES[side] * x, y, z));
+        let [top_radius, radius] = capsule.radii;
+        let along = Quat::from_rotation_arc(Vec3::Y, (top - bottom).normalize());
         ColliderDesc {
             shape: Shape::Capsule,
-            position,
-            rotation,
-            radius: bottom,
-            top_radius: top,
-            half_height: 0.5 * length - INSET,
+            position: pose.carry(bone, 0.5 * (top + bottom)),
+            rotation: pose.bone(bone).rotation * along,
+            radius,
+            top_radius,
+            half_height: 0.5 * top.distance(bottom),
             thickness: GAP,
             friction: FRICTION,
             ..ColliderDesc::default()
@@ -151,27 +180,17 @@ fn arm_capsules(pose: &Pose, side: usize) -> [ColliderDesc; 2] {
     })
 }
 
-/// Returns the pose of a capsule along a bone of this length [m], which hangs down at rest.
-fn capsule_pose(pose: &Pose, bone: Bone, length: f32) -> (Vec3, Quat) {
-    let middle = bone.joint() - Vec3::Y * (0.5 * length);
-    (pose.carry(bone, middle), pose.bone(bone).rotation)
-}
-
 impl DressedBody {
     /// Moves colliders and attachments to the pose at the end of the next tick.
     pub(crate) fn set_targets(&mut self, cloth: &mut Cloth) {
         self.pose = pose_at(self.ticks.wrapping_add(1));
-        self.collision.pose(&self.pose);
         let result = self.move_all(cloth);
         debug_assert!(result.is_ok(), "the figure does not move: {result:?}");
     }
 
     fn move_all(&self, cloth: &mut Cloth) -> Result<()> {
-        cloth.update_collider(self.trunk, self.collision.positions())?;
-        for (side, arm) in self.arms.iter().enumerate() {
-            for (collider, desc) in arm.iter().zip(arm_capsules(&self.pose, side)) {
-                cloth.move_collider(*collider, desc.position, desc.rotation)?;
-            }
+        for (collider, desc) in self.capsules.iter().zip(capsules(&self.pose)) {
+            cloth.move_collider(*collider, desc.position, desc.rotation)?;
         }
         for (attachment, bone) in [(self.waist, Bone::Pelvis), (self.shoulders, Bone::Chest)] {
             let pose = self.pose.bone(bone);
@@ -205,15 +224,9 @@ impl DressedBody {
         &self.drawn
     }
 
-    /// Returns the mesh that the cloth collides with.
-    pub fn collision(&self) -> &Body {
-        &self.collision
-    }
-
-    /// Returns the depth of a point inside the capsules of the arms [m]; negative outside.
-    pub fn depth_in_arms(&self, point: Vec3) -> f32 {
-        let capsules = (0..2).flat_map(|side| arm_capsules(&self.pose, side));
-        let depths = capsules.map(|capsule| {
+    /// Returns the depth of a point inside the capsules of the body [m]; negative outside.
+    pub fn depth_inside(&self, point: Vec3) -> f32 {
+        let depths = capsules(&self.pose).map(|capsule| {
             let axis = capsule.rotation * Vec3::Y;
             let along = (point - capsule.position).dot(axis) / capsule.half_height;
             let along = along.clamp(-1.0, 1.0);
@@ -243,13 +256,9 @@ impl Scene for Figure {
             if !x.is_finite() {
                 return Err(format!("a particle is at {x}"));
             }
-            let depth = body.depth_in_arms(*x);
+            let depth = body.depth_inside(*x);
             if depth > 1.0e-3 {
-                return Err(format!("a particle at {x} is {depth} m inside an arm"));
-            }
-            let turns = body.collision().winding_number(*x);
-            if turns > 0.5 {
-                return Err(format!("a particle at {x} is inside the body"));
+                return Err(format!("a particle at {x} is {depth} m inside the body"));
             }
         }
         let stretch = cloth.stats().max_stretch;
@@ -259,3 +268,6 @@ impl Scene for Figure {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -29,9 +29,9 @@ pub const LOOP_TICKS: u32 = 8 * STEP_TICKS + 2 * KICK_TICKS;
 /// Time from the start in which the arms come down to the sides [ticks].
 const ARMS_DOWN_TICKS: f32 = 70.0;
 /// Radius of the lap [m].
-const RADIUS: f32 = 0.7;
+const RADIUS: f32 = 0.64;
 /// Distance of the feet from the line that the figure walks along [m].
-const HALF_TRACK: f32 = 0.055;
+const HALF_TRACK: f32 = 0.082;
 /// Height of the hips in a double support, and its rise in the middle of a step [m].
 const HIP_HEIGHT: [f32; 2] = [0.862, 0.022];
 /// Ball and heel of the foot, seen from the ankle in the rest pose [m].
@@ -133,7 +133,8 @@ impl Moment {
 
 /// Returns position and heading [rad] on the lap, after this number of steps.
 fn on_lap(steps: f32) -> (Vec3, f32) {
-    let angle = TAU * steps / STEPS as f32;
+    // The first kick faces +z, towards the camera.
+    let angle = TAU * (steps / STEPS as f32 + 0.5);
     (Vec3::new(RADIUS * angle.sin(), FLOOR, RADIUS * angle.cos()), angle + FRAC_PI_2)
 }
 
@@ -154,7 +155,7 @@ fn place_trunk(pose: &mut Pose, moment: Moment) {
     let [low, rise] = HIP_HEIGHT;
     let height = low + rise * arch * arch;
     // The left hip is in front when the left foot is.
-    let twist = -0.10 * moment.swing(0);
+    let twist = -0.08 * moment.swing(0);
     let roll = -stance * arch * 0.05;
     let tilt = 0.03 - 0.12 * kick;
     let pelvis = facing
@@ -165,7 +166,7 @@ fn place_trunk(pose: &mut Pose, moment: Moment) {
     let at = middle + facing * Vec3::new(aside, up, 0.0);
     pose.set(Bone::Pelvis, at, pelvis);
     let chest = facing
-        * Quat::from_rotation_y(-0.9 * twist)
+        * Quat::from_rotation_y(-0.6 * twist)
         * Quat::from_rotation_z(-0.4 * roll)
         * Quat::from_rotation_x(0.04 - 0.20 * kick);
     pose.set(Bone::Chest, pose.carry(Bone::Pelvis, Bone::Chest.joint()), chest);
@@ -177,8 +178,8 @@ fn place_arm(pose: &mut Pose, moment: Moment, side: usize, arms_down: f32) {
     // Arms swing against the legs.
     let swing = moment.swing(1 - side);
     let kick = moment.kick();
-    let forward = 0.05 + 0.36 * swing * (1.0 - 0.6 * kick);
-    let away = 0.62 + arms_down * (0.25 - 0.62) + 0.55 * kick;
+    let forward = 0.03 + 0.30 * swing * arms_down * (1.0 - 0.6 * kick);
+    let away = 0.62 + arms_down * (0.32 - 0.62) + 0.22 * kick;
     let bend = 0.36 + 0.16 * swing;
     let chest = pose.bone(Bone::Chest).rotation;
     let upper = chest * Quat::from_rotation_z(SIDES[side] * away) * Quat::from_rotation_x(-forward);
@@ -202,7 +203,7 @@ fn place_leg(pose: &mut Pose, moment: Moment, side: usize) {
         let (to, last) = footprint(step as f32, side);
         let moved = smooth(0.04, 0.98, share);
         let arch = (PI * share).sin();
-        let lift = Vec3::Y * (0.045 * arch * arch);
+        let lift = Vec3::Y * (0.075 * arch * arch);
         (from.lerp(to, moved) + lift, first + moved * (last - first), at_key(&SWING_PITCH, share))
     };
     let foot = Quat::from_rotation_y(heading) * Quat::from_rotation_x(pitch.to_radians());
@@ -216,14 +217,21 @@ fn place_leg(pose: &mut Pose, moment: Moment, side: usize) {
         let angle = at_key(&KICK_ANGLE, share).to_radians();
         let leg = Vec3::new(0.0, -angle.cos(), angle.sin())
             * (2.0 * LEG_BONE * at_key(&KICK_REACH, share));
-        pointed = smooth(0.0, 0.2, share) * (1.0 - smooth(0.74, 0.98, share));
+        pointed = smooth(0.05, 0.24, share) * (1.0 - smooth(0.74, 0.98, share));
         ankle = ankle.lerp(hip + Quat::from_rotation_y(course) * leg, pointed);
     }
     let [thigh, shin] = two_bones(hip, ankle, pelvis * Vec3::X);
     pose.set(Bone::Thigh(side), hip, thigh);
     pose.set(Bone::Shin(side), hip - thigh * Vec3::Y * LEG_BONE, shin);
-    let foot = foot.slerp(shin * Quat::from_rotation_x(0.7), pointed);
+    // The toes stay on the floor while the heel leaves it.
+    let planted =
+        if is_standing { smooth(0.0, 6.0, pitch) } else { 1.0 - smooth(0.15, 0.5, share) };
+    let toes = foot.slerp(Quat::from_rotation_y(heading), planted);
+    let stretched = shin * Quat::from_rotation_x(0.7);
+    let foot = foot.slerp(stretched, pointed);
     pose.set(Bone::Foot(side), pose.carry(Bone::Shin(side), Bone::Foot(side).joint()), foot);
+    let ball = pose.carry(Bone::Foot(side), Bone::Toes(side).joint());
+    pose.set(Bone::Toes(side), ball, toes.slerp(stretched, pointed));
 }
 
 /// Returns the rotations of thigh and shin that put the ankle at its target, or as near as the leg
@@ -305,9 +313,15 @@ mod tests {
         for tick in LOOP_TICKS..2 * LOOP_TICKS {
             let (pose, moment) = (pose_at(tick), Moment::at(tick % LOOP_TICKS));
             for side in 0..2 {
-                for point in [BALL, HEEL] {
-                    let sole = pose.carry(Bone::Foot(side), Bone::Foot(side).joint() + point);
-                    assert!(sole.y > FLOOR - 0.004, "tick {tick}: {}", sole.y - FLOOR);
+                let ankle = Bone::Foot(side).joint();
+                let tip = ankle + BALL + Vec3::Z * 0.07;
+                for (bone, point) in [
+                    (Bone::Foot(side), ankle + BALL),
+                    (Bone::Foot(side), ankle + HEEL),
+                    (Bone::Toes(side), tip),
+                ] {
+                    let sole = pose.carry(bone, point);
+                    assert!(sole.y > FLOOR - 0.006, "tick {tick}: {}", sole.y - FLOOR);
                 }
             }
             if !(0.2..0.5).contains(&moment.share) {

@@ -1,4 +1,4 @@
-//! Skeleton of the figure: thirteen bones, their rest positions, and the pose of all of them.
+//! Skeleton of the figure: fifteen bones, their rest positions, and the pose of all of them.
 //!
 //! Method: every bone has a rigid transform from the rest pose to the present one; vertices blend
 //! the transforms of two bones (linear blend skinning).
@@ -25,6 +25,8 @@ pub enum Bone {
     Shin(usize),
     /// Foot.
     Foot(usize),
+    /// Toes.
+    Toes(usize),
     /// Upper arm.
     UpperArm(usize),
     /// Lower arm and hand.
@@ -32,7 +34,7 @@ pub enum Bone {
 }
 
 /// Number of bones.
-const BONES: usize = 13;
+const BONES: usize = 15;
 
 /// Sign of x on the left and on the right side.
 pub const SIDES: [f32; 2] = [1.0, -1.0];
@@ -54,8 +56,9 @@ impl Bone {
             Self::Thigh(side) => 3 + side,
             Self::Shin(side) => 5 + side,
             Self::Foot(side) => 7 + side,
-            Self::UpperArm(side) => 9 + side,
-            Self::Forearm(side) => 11 + side,
+            Self::Toes(side) => 9 + side,
+            Self::UpperArm(side) => 11 + side,
+            Self::Forearm(side) => 13 + side,
         }
     }
 
@@ -69,6 +72,7 @@ impl Bone {
             Self::Thigh(side) => at(side, HIP, ANKLE + 2.0 * LEG_BONE),
             Self::Shin(side) => at(side, HIP, ANKLE + LEG_BONE),
             Self::Foot(side) => at(side, HIP, ANKLE),
+            Self::Toes(side) => at(side, HIP, 0.012).with_z(0.105),
             Self::UpperArm(side) => at(side, SHOULDER, 1.385),
             Self::Forearm(side) => at(side, SHOULDER, 1.105),
         }
