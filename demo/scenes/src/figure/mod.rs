@@ -47,8 +47,8 @@ struct BodyCapsule {
 const CAPSULES: [BodyCapsule; 7] = [
     BodyCapsule {
         bone: |_| Bone::Chest,
-        ends: [[0.045, 1.398, -0.012], [0.130, 1.385, -0.008]],
-        radii: [0.050, 0.045],
+        ends: [[0.045, 1.375, -0.009], [0.118, 1.362, -0.008]],
+        radii: [0.063, 0.060],
     },
     BodyCapsule {
         bone: |_| Bone::Chest,
