@@ -1,5 +1,6 @@
-// Clothes on the skinned figure of a glTF file: one coarse cloth for each pattern piece, with a fine
-// skin, around a collider that gets the skinned vertices of the body in every frame.
+// Clothes on the skinned figure of a glTF file: the pattern pieces are one coarse cloth, so that they
+// collide with each other, with a fine skin for each. The collider gets the skinned vertices of the
+// body in every frame.
 
 import * as THREE from "three";
 import { Cloth } from "../muslin/index.js";
@@ -21,59 +22,18 @@ function poseOf(bone) {
   return [position.toArray(), rotation.toArray()];
 }
 
-/** A garment: its cloth, and the mesh that draws its skin. */
-class Garment {
-  #collider;
-  #attachment;
-  #bone;
-  #skin;
-
-  constructor(figure, name, material, bodyPositions, bodyIndices) {
-    const piece = figure.getObjectByName(name);
-    const { held, bone } = piece.userData;
-    this.#bone = figure.getObjectByName(bone);
-    // The pieces lie around the rest pose: the bone carries them to the present one.
-    const toWorld = this.#bone.matrixWorld.clone().multiply(figure.restInverses.get(bone));
-    const [coarse, fine] = [piece, figure.getObjectByName(`${name}Skin`)].map(({ geometry }) => ({
-      positions: geometry.attributes.position.clone().applyMatrix4(toWorld).array,
-      uvs: geometry.attributes.uv.array,
-      indices: Uint32Array.from(geometry.index.array),
-    }));
-    this.cloth = Cloth.mesh({ ...coarse, material: "cotton", settings: { maxStretch: 0.06 } });
-    this.#attachment = this.cloth.attach(held, ...poseOf(this.#bone));
-    this.#collider = this.cloth.addCollider({
-      shape: "mesh", positions: bodyPositions, indices: bodyIndices, thickness: 0.006, friction: 0.25,
-    });
-    this.#skin = this.cloth.skin(fine);
-    const geometry = new THREE.BufferGeometry();
-    const attribute = (values, size) => new THREE.BufferAttribute(Float32Array.from(values), size).setUsage(THREE.DynamicDrawUsage);
-    geometry.setAttribute("position", attribute(this.#skin.positions, 3));
-    geometry.setAttribute("normal", attribute(this.#skin.normals, 3));
-    geometry.setAttribute("uv", attribute(fine.uvs, 2));
-    geometry.setIndex(new THREE.BufferAttribute(fine.indices, 1));
-    this.mesh = new THREE.Mesh(geometry, material);
-    this.mesh.frustumCulled = false;
-    this.mesh.castShadow = this.mesh.receiveShadow = true;
-  }
-
-  advance(seconds, bodyPositions) {
-    this.#collider.update(bodyPositions);
-    this.#attachment.moveTo(...poseOf(this.#bone));
-    this.cloth.advance(seconds);
-  }
-
-  /** Copies the skin to the geometry. */
-  draw() {
-    const { position, normal } = this.mesh.geometry.attributes;
-    position.array.set(this.#skin.positions);
-    normal.array.set(this.#skin.normals);
-    position.needsUpdate = normal.needsUpdate = true;
-  }
-
-  free() {
-    this.mesh.geometry.dispose();
-    this.cloth.free();
-  }
+/** Returns a mesh that draws a skin. */
+function makeMesh(skin, { uvs, indices }, material) {
+  const geometry = new THREE.BufferGeometry();
+  const attribute = (values, size) => new THREE.BufferAttribute(Float32Array.from(values), size).setUsage(THREE.DynamicDrawUsage);
+  geometry.setAttribute("position", attribute(skin.positions, 3));
+  geometry.setAttribute("normal", attribute(skin.normals, 3));
+  geometry.setAttribute("uv", attribute(uvs, 2));
+  geometry.setIndex(new THREE.BufferAttribute(indices, 1));
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.frustumCulled = false;
+  mesh.castShadow = mesh.receiveShadow = true;
+  return mesh;
 }
 
 /** A figure with its clip and its clothes. */
@@ -81,43 +41,80 @@ export class Dressed {
   #mixer;
   #body;
   #positions;
+  #collider;
+  /** The bones that hold a piece, with their attachments. */
+  #held = [];
+  #skins = [];
 
-  /** `gltf` is a loaded file; `materials` has one for each piece, by name. */
+  /** `gltf` is a loaded file; `materials` has one for each pattern piece, by name. */
   constructor(gltf, materials) {
-    const figure = gltf.scene;
-    this.#body = figure.getObjectByName("body");
-    const { bones, boneInverses } = this.#body.skeleton;
-    figure.restInverses = new Map(bones.map((bone, i) => [bone.name, boneInverses[i]]));
-    this.#mixer = new THREE.AnimationMixer(figure);
+    this.figure = gltf.scene;
+    this.#body = this.figure.getObjectByName("body");
+    this.#mixer = new THREE.AnimationMixer(this.figure);
     this.#mixer.clipAction(gltf.animations[0]).play();
     this.#mixer.setTime(0);
-    figure.updateMatrixWorld(true);
+    this.figure.updateMatrixWorld(true);
     this.#positions = new Float32Array(3 * this.#body.geometry.attributes.position.count);
     skinVertices(this.#body, this.#positions);
+
+    const pieces = Object.keys(materials).map((name) => this.#piece(name));
+    const whole = { positions: [], uvs: [], indices: [] };
+    for (const piece of pieces) {
+      piece.first = whole.positions.length / 3;
+      whole.positions.push(...piece.coarse.positions);
+      whole.uvs.push(...piece.coarse.uvs);
+      for (const vertex of piece.coarse.indices) whole.indices.push(piece.first + vertex);
+    }
+    const settings = { maxStretch: 0.06, selfCollision: true, selfDistance: 0.005 };
+    this.cloth = Cloth.mesh({ ...whole, material: "cotton", settings });
+    for (const { first, held, bone } of pieces) {
+      const attachment = this.cloth.attach(held.map((vertex) => first + vertex), ...poseOf(bone));
+      this.#held.push([bone, attachment]);
+    }
     const indices = Uint32Array.from(this.#body.geometry.index.array);
-    this.garments = Object.entries(materials).map(
-      ([name, material]) => new Garment(figure, name, material, this.#positions, indices),
-    );
-    this.figure = figure;
+    this.#collider = this.cloth.addCollider({
+      shape: "mesh", positions: this.#positions, indices, thickness: 0.006, friction: 0.25,
+    });
+    this.#skins = pieces.map(({ fine }) => this.cloth.skin(fine));
+    this.meshes = pieces.map(({ name, fine }, i) => makeMesh(this.#skins[i], fine, materials[name]));
+  }
+
+  /** Returns a pattern piece where its bone carries it. The pieces of the file lie around the rest pose. */
+  #piece(name) {
+    const piece = this.figure.getObjectByName(name);
+    const { bones, boneInverses } = this.#body.skeleton;
+    const index = bones.findIndex((bone) => bone.name === piece.userData.bone);
+    const toWorld = bones[index].matrixWorld.clone().multiply(boneInverses[index]);
+    const [coarse, fine] = [piece, this.figure.getObjectByName(`${name}Skin`)].map(({ geometry }) => ({
+      positions: geometry.attributes.position.clone().applyMatrix4(toWorld).array,
+      uvs: geometry.attributes.uv.array,
+      indices: Uint32Array.from(geometry.index.array),
+    }));
+    return { name, coarse, fine, held: piece.userData.held, bone: bones[index] };
   }
 
   advance(seconds) {
     this.#mixer.update(seconds);
     this.figure.updateMatrixWorld(true);
     skinVertices(this.#body, this.#positions);
-    for (const garment of this.garments) garment.advance(seconds, this.#positions);
+    this.#collider.update(this.#positions);
+    for (const [bone, attachment] of this.#held) attachment.moveTo(...poseOf(bone));
+    this.cloth.advance(seconds);
   }
 
+  /** Copies the skins to the geometries. */
   draw() {
-    for (const garment of this.garments) garment.draw();
-  }
-
-  get particles() {
-    return this.garments.reduce((sum, { cloth }) => sum + cloth.stats.particles, 0);
+    this.meshes.forEach(({ geometry }, i) => {
+      const { position, normal } = geometry.attributes;
+      position.array.set(this.#skins[i].positions);
+      normal.array.set(this.#skins[i].normals);
+      position.needsUpdate = normal.needsUpdate = true;
+    });
   }
 
   free() {
     this.#mixer.stopAllAction();
-    for (const garment of this.garments) garment.free();
+    for (const { geometry } of this.meshes) geometry.dispose();
+    this.cloth.free();
   }
 }

@@ -7,7 +7,7 @@ const mix = (a, b, share) => a + share * (b - a);
 const power = (x, exponent) => Math.sign(x) * Math.abs(x) ** exponent;
 
 /** Height, half width and half depth of the skirt [m]. */
-const SKIRT = [[1.065, 0.134, 0.099], [1.025, 0.15, 0.116], [0.92, 0.205, 0.17], [0.56, 0.41, 0.37]];
+const SKIRT = [[1.065, 0.134, 0.099], [1.025, 0.15, 0.116], [0.92, 0.2, 0.165], [0.56, 0.41, 0.37]];
 const [SKIRT_COLUMNS, SKIRT_ROWS] = [36, 11];
 
 function skirtPoint(column, row) {
@@ -27,8 +27,8 @@ function shirtPoint(column, row) {
   const angle = (2 * Math.PI * column) / SHIRT_COLUMNS;
   const [across, ahead] = [-power(Math.sin(angle), 0.85), -power(Math.cos(angle), 0.7)];
   const up = Math.min(row / LOWER, 1);
-  const [wide, deep] = [mix(0.215, 0.174, up), mix(0.19, 0.148, up)];
-  if (row <= LOWER) return [wide * across, mix(0.985, 1.225, up), deep * ahead];
+  const [wide, deep] = [mix(0.245, 0.174, up), mix(0.21, 0.148, up)];
+  if (row <= LOWER) return [wide * across, mix(0.955, 1.225, up), deep * ahead];
   const over = (row - LOWER) / UPPER;
   const x = wide * across * (1 + 0.17 * over * over);
   const seam = 1.452 + 0.5 * Math.max(0.11 - Math.abs(x), 0) - 12 * Math.max(Math.abs(x) - 0.155, 0) ** 2;

@@ -69,7 +69,7 @@ let shown;
 async function restart() {
   const gltf = await load();
   if (shown) {
-    scene.remove(shown.figure, ...shown.garments.map(({ mesh }) => mesh));
+    scene.remove(shown.figure, ...shown.meshes);
     shown.free();
   }
   shown = new Dressed(gltf, materials);
@@ -81,7 +81,7 @@ async function restart() {
   }
   // The pattern pieces of the file are not drawn, their cloths are.
   for (const name of ["skirt", "skirtSkin", "shirt", "shirtSkin"]) shown.figure.getObjectByName(name).visible = false;
-  scene.add(shown.figure, ...shown.garments.map(({ mesh }) => mesh));
+  scene.add(shown.figure, ...shown.meshes);
 }
 await restart();
 
@@ -124,6 +124,9 @@ function fit() {
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   renderer.setSize(width, height, false);
   camera.aspect = width / height;
+  // The panel of a narrow window covers its lower part.
+  const { top, right } = document.querySelector(".panel").getBoundingClientRect();
+  camera.setViewOffset(width, height, 0, right > width / 2 ? (height - top) / 2 : 0, width, height);
   camera.updateProjectionMatrix();
 }
 addEventListener("resize", fit);
@@ -146,7 +149,7 @@ function frame(now) {
   renderer.render(scene, camera);
   frames++;
   if (now - since < 500) return;
-  $("stats").textContent = `${shown.particles} particles · ${Math.round((1000 * frames) / (now - since))} fps`;
+  $("stats").textContent = `${shown.cloth.stats.particles} particles · ${Math.round((1000 * frames) / (now - since))} fps`;
   [frames, since] = [0, now];
 }
 requestAnimationFrame(frame);
