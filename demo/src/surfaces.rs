@@ -11,7 +11,7 @@
 use glam::Vec2;
 use muslin::{Cloth, LinkKind, Skin};
 use muslin_scenes::SceneInstance;
-use muslin_scenes::figure::DressedBody;
+use muslin_scenes::figure::dressed::DressedBody;
 use muslin_scenes::figure::garments::{SHIRT_SPAN, SKIRT_SPAN};
 
 use crate::render::{ClothSurface, Renderer};

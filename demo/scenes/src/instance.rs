@@ -5,7 +5,7 @@
 //! the first cloth. Before each tick they get their pose at the end of that tick, and the colliders
 //! sweep there.
 
-use crate::figure::DressedBody;
+use crate::figure::dressed::DressedBody;
 use glam::{Quat, Vec3};
 use muslin::{Cloth, Collider, ColliderDesc, Result, Settings, Shape};
 use std::f32::consts::TAU;

@@ -18,6 +18,7 @@ mod hanging_sheet;
 mod instance;
 mod scene;
 mod sheet_on_ball;
+mod stage;
 
 pub use curtain::Curtain;
 pub use drapes::Drapes;

@@ -12,7 +12,7 @@
 //! Invariant: the motion repeats after [`LOOP_TICKS`] ticks, and is continuous.
 
 use super::skeleton::{ANKLE, Bone, LEG_BONE, Pose, SIDES};
-use crate::scene::FLOOR;
+use crate::stage::FLOOR;
 use glam::{Mat3, Quat, Vec3};
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
