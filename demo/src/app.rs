@@ -11,7 +11,7 @@
 //! they were.
 
 use glam::{Vec2, Vec3};
-use muslin::{Cloth, LinkKind, Result, Stage};
+use muslin::{Cloth, Result, Stage};
 use muslin_scenes::SceneInstance;
 use three_d::{CoreError, RenderTarget};
 
@@ -22,10 +22,10 @@ use crate::meter::{Meter, Readout, ResolutionScaler, StageTime};
 use crate::picking::{PickContext, Screen};
 use crate::pointer::{Cursor, Pointers};
 use crate::render::trail::TrailPoint;
-use crate::render::{ClothSurface, FrameScene, Renderer};
+use crate::render::{FrameScene, Renderer};
 use crate::scene;
-use crate::scene_kind::SceneKind;
 use crate::settings::Settings;
+use crate::surfaces::{self, WireframeLines};
 
 /// Longest frame time that the camera animation uses [s].
 const LONGEST_FRAME: f32 = 0.1;
@@ -50,13 +50,6 @@ pub struct App {
     /// Number of rebuilds of the scene. New cloths restart their topology revision, so this number
     /// tells them apart.
     generation: u32,
-}
-
-/// End points of the links of one cloth, for the wireframe.
-#[derive(Debug, Default)]
-struct WireframeLines {
-    ends: Vec<u32>,
-    revision: Option<u64>,
 }
 
 impl App {
@@ -310,23 +303,7 @@ impl App {
             resolution_scale: self.resolution_scaler.scale(density),
         };
         let start = (self.clock)();
-        renderer.set_cloth_count(self.scene.cloths.len());
-        for (i, (cloth, lines)) in self.scene.cloths.iter_mut().zip(&self.lines).enumerate() {
-            let view = cloth.view();
-            let surface = ClothSurface {
-                positions: view.positions,
-                unit: scene::unit(self.settings.scene),
-                normals: view.normals,
-                uvs: view.uvs,
-                frayed: view.frayed,
-                indices: view.indices,
-                lines: &lines.ends,
-                span: scene::span(&self.settings),
-                is_round: self.settings.scene == SceneKind::Discs,
-                revision: lines.revision.unwrap_or_default(),
-            };
-            renderer.upload_cloth(i, &surface);
-        }
+        surfaces::upload(renderer, &mut self.scene, &self.settings, &self.lines, self.generation);
         let uploaded = (self.clock)();
         renderer.draw(&frame, output)?;
         self.meter.record_drawing(uploaded - start, (self.clock)() - uploaded);
@@ -348,8 +325,8 @@ impl App {
         &mut self.camera
     }
 
-    /// Returns the numbers of particles across and down the sheet; `None` for discs, which are no
-    /// grid.
+    /// Returns the numbers of particles across and down the sheet; `None` for discs and clothes,
+    /// which are no grid.
     pub fn grid_size(&self) -> Option<[u32; 2]> {
         scene::grid_size(&self.settings)
     }
@@ -404,19 +381,6 @@ impl App {
             camera: &mut self.camera,
         };
         (&mut self.pointers, pick)
-    }
-}
-
-impl WireframeLines {
-    /// Rebuilds the list of lines if the topology of the cloth has changed.
-    fn update(&mut self, cloth: &Cloth, generation: u32) {
-        let revision = (u64::from(generation) << 32) | u64::from(cloth.topology_revision());
-        if self.revision != Some(revision) {
-            self.revision = Some(revision);
-            self.ends.clear();
-            let woven = cloth.links().filter(|link| link.2 == LinkKind::Stretch);
-            self.ends.extend(woven.flat_map(|(a, b, _)| [a, b]));
-        }
     }
 }
 

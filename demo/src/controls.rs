@@ -278,6 +278,7 @@ impl Control {
     pub fn is_enabled(&self, settings: &Settings) -> bool {
         match self.name {
             "fabric" => settings.scene != SceneKind::Discs,
+            "resolution" => settings.scene != SceneKind::Figure,
             "pinning" => matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag),
             "drop" => {
                 matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag | SceneKind::Curtain)
@@ -431,6 +432,10 @@ mod tests {
         );
         assert!(is_enabled("pinning", SceneKind::Flag) && !is_enabled("pinning", SceneKind::Ball));
         assert!(is_enabled("drop", SceneKind::Curtain) && !is_enabled("drop", SceneKind::Discs));
+        assert!(is_enabled("fabric", SceneKind::Figure));
+        for name in ["resolution", "pinning", "drop"] {
+            assert!(!is_enabled(name, SceneKind::Figure), "{name}");
+        }
     }
 
     #[test]

@@ -25,6 +25,20 @@ pub enum Fabric {
     Flag,
 }
 
+/// A pattern that the cloth shader prints on a fabric.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Print {
+    /// The plain fabric.
+    #[default]
+    None = 0,
+    /// Three waves and a ring.
+    Flag = 1,
+    /// Stripes across, in the colour of the seam.
+    Stripes = 2,
+    /// Two bands above the hem, in the colour of the seam.
+    Border = 3,
+}
+
 /// Parameters of a fabric for the cloth shader. Colours are sRGB, `0xrrggbb`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Appearance {
@@ -51,8 +65,8 @@ pub struct Appearance {
     pub fuzz: f32,
     /// Strength of the transmitted light.
     pub transmission: f32,
-    /// Whether the flag is printed on it.
-    pub printed: bool,
+    /// What is printed on it.
+    pub print: Print,
 }
 
 impl Fabric {
@@ -104,7 +118,7 @@ impl Fabric {
                 gloss: [0.21, 0.46, 0.15, 1.0],
                 fuzz: 0.20,
                 transmission: 1.0,
-                printed: false,
+                print: Print::None,
             },
             Self::Cotton => Appearance {
                 front: 0xe9dfcf,
@@ -118,7 +132,7 @@ impl Fabric {
                 gloss: [0.62, 0.70, 0.035, 0.10],
                 fuzz: 0.34,
                 transmission: 1.35,
-                printed: false,
+                print: Print::None,
             },
             Self::Denim => Appearance {
                 front: 0x3d5283,
@@ -132,7 +146,7 @@ impl Fabric {
                 gloss: [0.55, 0.65, 0.035, 0.08],
                 fuzz: 0.16,
                 transmission: 0.10,
-                printed: false,
+                print: Print::None,
             },
             Self::Flag => Appearance {
                 front: 0xf2ead8,
@@ -146,9 +160,64 @@ impl Fabric {
                 gloss: [0.26, 0.30, 0.11, 0.75],
                 fuzz: 0.05,
                 transmission: 1.5,
-                printed: true,
+                print: Print::Flag,
             },
         }
+    }
+}
+
+/// Returns the appearance of the figure's skirt in this fabric: dyed, with two bands above the hem.
+pub fn skirt(fabric: Fabric) -> Appearance {
+    let (dye, band) = match fabric {
+        Fabric::Silk => (0x8a2f4e, 0xf0d9b8),
+        Fabric::Cotton => (0x9e3b33, 0xf0dfc4),
+        Fabric::Denim => (0x3d5283, 0xf0d9b8),
+        Fabric::Flag => (0x1f7f86, 0xf2ead8),
+    };
+    let woven = fabric.appearance();
+    Appearance {
+        front: dye,
+        back: dye,
+        saturation: 1.0,
+        threads: [dye, dye],
+        seam: (band, 1.0),
+        // Finer than the fabrics of the large sheets.
+        count: 420.0,
+        relief: [0.10, 0.04],
+        weave: 0.0,
+        transmission: 0.25 * woven.transmission,
+        print: Print::Border,
+        ..woven
+    }
+}
+
+/// Returns the appearance of the figure's shirt: unbleached cotton with dark blue stripes.
+pub fn shirt() -> Appearance {
+    Appearance {
+        seam: (0x27375e, 1.0),
+        transmission: 0.3,
+        count: 420.0,
+        relief: [0.10, 0.04],
+        print: Print::Stripes,
+        ..Fabric::Cotton.appearance()
+    }
+}
+
+/// Returns the appearance of the figure's body: the matt linen of a tailor's mannequin.
+pub fn mannequin() -> Appearance {
+    Appearance {
+        front: 0xd8c9b4,
+        back: 0xd8c9b4,
+        saturation: 1.0,
+        threads: [0xd8c9b4; 2],
+        seam: (0xd8c9b4, 0.0),
+        count: 1.0,
+        relief: [0.0, 0.0],
+        weave: 0.0,
+        gloss: [0.55, 0.55, 0.03, 0.16],
+        fuzz: 0.10,
+        transmission: 0.0,
+        print: Print::None,
     }
 }
 

@@ -4,7 +4,7 @@
 //! ```text
 //! native (window)   web (page)   shot (PNG file)
 //!         ╲             │             ╱
-//!       app (five cloth scenes), receipt (one scene)
+//!       app (six cloth scenes), receipt (one scene)
 //!         │                     │
 //!       scene, pointer, camera  render
 //! ```
@@ -30,6 +30,7 @@ pub mod render;
 pub mod scene;
 pub mod scene_kind;
 pub mod settings;
+pub mod surfaces;
 
 #[cfg(not(target_arch = "wasm32"))]
 pub mod cli;

@@ -13,10 +13,11 @@ use std::f32::consts::TAU;
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, Wind};
 use muslin_scenes::disc::Disc;
-use muslin_scenes::{Curtain, Drapes, Flag, HangingSheet, SceneInstance, SheetOnBall};
+use muslin_scenes::figure::garments::SKIRT_SPAN;
+use muslin_scenes::{Curtain, Drapes, Figure, Flag, HangingSheet, SceneInstance, SheetOnBall};
 
 use crate::camera::CameraRig;
-use crate::fabric::{Appearance, Fabric};
+use crate::fabric::{self, Appearance, Fabric};
 use crate::render::light::FLOOR;
 use crate::render::solid::Solid;
 use crate::scene_kind::SceneKind;
@@ -35,6 +36,8 @@ const CLEARANCE: f32 = 0.006;
 /// Difference between the collision radius and the drawn radius of the ball: the triangles of the
 /// cloth cut the corners of the round shape [m].
 const BALL_INSET: f32 = 0.009;
+/// Distance between neighbouring particles of the clothes, on average [m].
+const GARMENT_SPACING: f32 = 0.04;
 /// Fabrics of the discs.
 const DISC_FABRICS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
 /// Colour of knobs and rings.
@@ -42,13 +45,13 @@ const BRASS: u32 = 0xd9a04a;
 /// Radius of the flag pole [m].
 const POLE_RADIUS: f32 = 0.016;
 
-/// Returns the numbers of particles across and down; `None` for the discs, which are no grid.
+/// Returns the numbers of particles across and down; `None` for discs and clothes, which are no grid.
 pub fn grid_size(settings: &Settings) -> Option<[u32; 2]> {
     match settings.scene {
         SceneKind::Sheet | SceneKind::Ball => Some([settings.resolution; 2]),
         SceneKind::Flag => Some(Flag::grid_size(settings.resolution)),
         SceneKind::Curtain => Some(Curtain::grid_size(settings.resolution)),
-        SceneKind::Discs => None,
+        SceneKind::Discs | SceneKind::Figure => None,
     }
 }
 
@@ -60,10 +63,14 @@ pub fn unit(scene: SceneKind) -> f32 {
     }
 }
 
-/// Returns the appearance of each cloth.
+/// Returns the appearance of each drawn surface, see [`surfaces`](crate::surfaces).
 pub fn appearances(settings: &Settings) -> Vec<Appearance> {
     match settings.scene {
         SceneKind::Discs => DISC_FABRICS.map(Fabric::appearance).to_vec(),
+        SceneKind::Figure => {
+            let skirt = fabric::skirt(settings.fabric);
+            vec![skirt, fabric::shirt(), fabric::mannequin(), skirt]
+        }
         _ => vec![settings.fabric.appearance()],
     }
 }
@@ -86,6 +93,13 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
             half_width: 1.4,
             ..usual
         },
+        SceneKind::Figure => CameraRig {
+            target: Vec3::new(0.0, -0.56, 0.0),
+            radius: 2.0..=12.0,
+            start: [0.35, 1.36, 3.9],
+            half_width: 1.2,
+            ..usual
+        },
     }
 }
 
@@ -97,12 +111,16 @@ pub fn spacing(settings: &Settings) -> f32 {
         SceneKind::Ball => SheetOnBall::SIZE,
         SceneKind::Curtain => Curtain::SIZE.x,
         SceneKind::Discs => return Drapes::RADIUS / Disc::rings(across_disc(settings)) as f32,
+        SceneKind::Figure => return GARMENT_SPACING,
     };
     across / (settings.resolution - 1) as f32
 }
 
 /// Returns width and height of a cloth, in drawn metres.
 pub fn span(settings: &Settings) -> Vec2 {
+    if settings.scene == SceneKind::Figure {
+        return SKIRT_SPAN;
+    }
     let size =
         grid_size(settings).map(|grid_size| grid_size.map(|n| (n - 1) as f32 * spacing(settings)));
     size.map_or(Vec2::splat(2.0 * Drapes::RADIUS), Vec2::from) / unit(settings.scene)
@@ -111,7 +129,7 @@ pub fn span(settings: &Settings) -> Vec2 {
 /// Returns the solids to draw: supports and obstacles of the cloth.
 pub fn solids(settings: &Settings, instance: &SceneInstance) -> Vec<Solid> {
     match settings.scene {
-        SceneKind::Sheet => Vec::new(),
+        SceneKind::Sheet | SceneKind::Figure => Vec::new(),
         SceneKind::Ball => {
             let centre = SheetOnBall::CENTRE;
             let radius = SheetOnBall::RADIUS - BALL_INSET;
@@ -182,6 +200,7 @@ pub fn build(settings: &Settings, reduced_motion: bool) -> Result<SceneInstance>
             add_floor(&mut curtain)?;
             SceneInstance::with_ball(curtain, Curtain::BALL)?
         }
+        SceneKind::Figure => figure(settings)?,
         _ => SceneInstance::from(sheet(settings)?),
     };
     apply_settings(&mut instance, settings, reduced_motion)?;
@@ -224,6 +243,13 @@ fn discs(settings: &Settings) -> Result<Vec<Cloth>> {
         Ok(cloth)
     };
     DISC_FABRICS.into_iter().zip(Drapes::CENTRES).map(disc).collect()
+}
+
+/// Builds the figure with its clothes.
+fn figure(settings: &Settings) -> Result<SceneInstance> {
+    let mut instance = Figure::dress(settings.fabric.material(), Figure::settings())?;
+    add_floor(&mut instance.cloths[0])?;
+    Ok(instance)
 }
 
 /// Number of particles across a disc: two thirds of the resolution, because there are three discs.
@@ -302,6 +328,7 @@ fn apply_settings_to(cloth: &mut Cloth, settings: &Settings, reduced_motion: boo
     // For the small discs, substeps set the stiffness instead of iterations.
     (live.substeps, live.iterations) = match settings.scene {
         SceneKind::Discs => ((4 * settings.stiffness).div_ceil(3), 2),
+        SceneKind::Figure => (live.substeps, settings.stiffness.div_ceil(3)),
         _ => (live.substeps, settings.stiffness),
     };
     live.gravity = Vec3::NEG_Y * settings.gravity;
@@ -314,7 +341,7 @@ fn apply_settings_to(cloth: &mut Cloth, settings: &Settings, reduced_motion: boo
         SceneKind::Flag => Flag::wind(FLAG_WIND * settings.wind),
         SceneKind::Ball => SheetOnBall::wind(DRAPED_WIND * settings.wind),
         SceneKind::Discs => SheetOnBall::wind(DISC_WIND * settings.wind),
-        SceneKind::Curtain => HangingSheet::wind(DRAPED_WIND * settings.wind),
+        SceneKind::Curtain | SceneKind::Figure => HangingSheet::wind(DRAPED_WIND * settings.wind),
     };
     cloth.set_wind(Wind {
         gust: wind.gust * restless,
@@ -334,7 +361,9 @@ mod tests {
             for pinning in [Pinning::TopEdge, Pinning::TopCorners, Pinning::Corners] {
                 let settings = Settings { scene, pinning, ..Settings::default() };
                 let mut instance = build(&settings, false).unwrap();
-                assert_eq!(instance.cloths.len(), appearances(&settings).len());
+                if instance.figure().is_none() {
+                    assert_eq!(instance.cloths.len(), appearances(&settings).len());
+                }
                 let start: Vec<_> =
                     instance.cloths.iter().map(|cloth| cloth.positions().to_vec()).collect();
                 for cloth in &instance.cloths {

@@ -27,20 +27,23 @@ pub enum SceneKind {
     Discs,
     /// A curtain that a ball rolls through.
     Curtain,
+    /// A walking figure in a skirt and a shirt.
+    Figure,
 }
 
 impl SceneKind {
     /// All scenes, in the order of the panel.
-    pub const ALL: [Self; 5] = [Self::Sheet, Self::Flag, Self::Ball, Self::Discs, Self::Curtain];
+    pub const ALL: [Self; 6] =
+        [Self::Sheet, Self::Flag, Self::Ball, Self::Discs, Self::Curtain, Self::Figure];
     /// Names on the panel.
-    pub const NAMES: [&'static str; 5] = ["Sheet", "Flag", "Ball", "Discs", "Curtain"];
+    pub const NAMES: [&'static str; 6] = ["Sheet", "Flag", "Ball", "Discs", "Curtain", "Figure"];
 
     /// Returns the fabric that the scene starts with.
     pub fn fabric(self) -> Fabric {
         match self {
             Self::Sheet | Self::Discs | Self::Curtain => Fabric::Silk,
             Self::Flag => Fabric::Flag,
-            Self::Ball => Fabric::Cotton,
+            Self::Ball | Self::Figure => Fabric::Cotton,
         }
     }
 }

@@ -122,6 +122,22 @@ fn discs_and_curtain_are_visible_on_the_stage() {
     assert!(difference(&curtain, &later) > 0.02, "the ball does not roll");
 }
 
+#[test]
+fn the_figure_is_dressed_and_walks() {
+    let settings = Settings { scene: SceneKind::Figure, ..Settings::default() };
+    let settings = Settings { fabric: settings.scene.fabric(), ..settings };
+    let shot = |ticks| take(&Shot { ticks, settings: settings.clone(), ..small() });
+    let (first, later) = (shot(60), shot(90));
+    let red = |picture: &Picture| {
+        let pixels = picture.rgb.chunks_exact(3);
+        pixels.filter(|p| p[0] > 90 && p[0] > 2 * p[1] && p[0] > 2 * p[2]).count()
+    };
+    assert!(red(&first) > 400, "{} pixels of the skirt", red(&first));
+    let light = first.rgb.chunks_exact(3).filter(|p| p.iter().all(|c| *c > 110)).count();
+    assert!(light > 500, "{light} pixels of body and shirt");
+    assert!(difference(&first, &later) > 0.01, "the figure does not walk");
+}
+
 fn receipt(play: Option<receipt::gestures::ReceiptGesture>, strip: u32) -> Picture {
     let receipt = ReceiptShot { play, small: true, ..ReceiptShot::default() };
     let ticks = 60 + play.map_or(0, receipt::gestures::ReceiptGesture::ticks);

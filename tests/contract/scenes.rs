@@ -2,7 +2,7 @@
 
 use crate::common::crossings::crossing_count;
 use muslin_scenes::{
-    Curtain, Drapes, Flag, HangingSheet, Receipt, Scene, SceneInstance, SheetOnBall,
+    Curtain, Drapes, Figure, Flag, HangingSheet, Receipt, Scene, SceneInstance, SheetOnBall,
 };
 
 /// Runs a scene, asserts its check after 1, 5 and 20 seconds, and returns it.
@@ -77,6 +77,23 @@ fn the_ball_of_the_curtain_scene_does_not_depend_on_frame_lengths() {
     let mut even = Curtain::build();
     even.step(12);
     let mut late = Curtain::build();
+    for ticks in [1, 4, 2, 5] {
+        late.advance(ticks as f32 / 60.0 + 1.0e-5).unwrap();
+    }
+    assert_eq!(late.cloths[0].positions(), even.cloths[0].positions());
+}
+
+#[test]
+fn the_figure_scene_passes_its_check_and_its_clothes_do_not_cross() {
+    let scene = checked_scene::<Figure>();
+    assert_eq!(crossing_count(&scene.cloths[0]), 0);
+}
+
+#[test]
+fn the_motion_of_the_figure_does_not_depend_on_frame_lengths() {
+    let mut even = Figure::build();
+    even.step(12);
+    let mut late = Figure::build();
     for ticks in [1, 4, 2, 5] {
         late.advance(ticks as f32 / 60.0 + 1.0e-5).unwrap();
     }

@@ -53,7 +53,7 @@ test("controls without an effect in a scene are disabled there", async () => {
     found.filter((one) => one.disabled).map((one) => one.id.replace("control-", "")),
   );
   const scenes = page.locator("#control-scene input");
-  for (const [scene, wanted] of [[3, ["fabric", "pinning", "drop"]], [4, ["pinning"]], [0, []]]) {
+  for (const [scene, wanted] of [[3, ["fabric", "pinning", "drop"]], [4, ["pinning"]], [5, ["pinning", "resolution", "drop"]], [0, []]]) {
     await scenes.nth(scene).check();
     assert.deepEqual(await off(), wanted);
     await waitFrames(page, 2);

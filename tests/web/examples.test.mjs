@@ -1,9 +1,12 @@
 // The example pages of the npm package: the cloth follows the pointer, and there are no errors.
 
 import assert from "node:assert/strict";
-import { readdir } from "node:fs/promises";
+import { execFile } from "node:child_process";
+import { readdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { promisify } from "node:util";
 
 import { fingers, launch, open, url, variable } from "./browser.mjs";
 
@@ -123,7 +126,7 @@ test("the index page links every example folder", async () => {
   const dirs = await readdir(new URL("../../bindings/js/examples", import.meta.url), { withFileTypes: true });
   const names = dirs.filter((dir) => dir.isDirectory()).map(({ name }) => name).sort();
   assert.deepEqual(links.sort(), names);
-  assert.deepEqual(names, ["babylon", "drape", "plain", "worker"]);
+  assert.deepEqual(names, ["babylon", "drape", "figure", "plain", "worker"]);
 });
 
 // The top of each sheet [pixels], and the time of a step [ms]: the page cannot count the frames of
@@ -196,6 +199,40 @@ test("drape: with tearing on a hard pull tears the sheet, and a reset restores i
   assert.equal(await page.locator("#pause").getAttribute("aria-pressed"), "true");
   assert.deepEqual(complaints, []);
   await context.close();
+});
+
+for (const [version, home] of [["r160", url], ["newest", newest]]) {
+  test(`figure ${version}: the figure walks in its clothes, and stands still while the page is paused`, async () => {
+    const { context, page, complaints } = await visit("figure", { home });
+    const middle = [150, 300];
+    const first = await readPixels(page, middle);
+    await waitForPixels(page, middle, first, true);
+    await page.screenshot({ path: join(shots, `figure${version}.png`) });
+    await page.locator("#pause").click();
+    await waitFrames(page, 2);
+    const paused = await readPixels(page, middle);
+    await waitFrames(page, 6);
+    assert.equal(countDifferent(await readPixels(page, middle), paused), 0);
+    await page.locator("#reset").click();
+    await waitForPixels(page, middle, paused, true);
+    assert.deepEqual(complaints, []);
+    await context.close();
+  });
+}
+
+test("the script writes the figure as a binary glTF file with a skin and a clip", async () => {
+  const file = join(shots, "../figure.glb");
+  const script = fileURLToPath(new URL("../../bindings/js/examples/figure/write-figure.mjs", import.meta.url));
+  await promisify(execFile)(process.execPath, [script, file]);
+  const bytes = await readFile(file);
+  assert.equal(bytes.toString("latin1", 0, 4), "glTF");
+  assert.equal(bytes.readUInt32LE(8), bytes.length);
+  const gltf = JSON.parse(bytes.toString("utf8", 20, 20 + bytes.readUInt32LE(12)));
+  const body = gltf.meshes.find(({ name }) => name === "body").primitives[0].attributes;
+  assert.ok(gltf.accessors[body.POSITION].count <= 1500);
+  assert.equal(gltf.accessors[body.WEIGHTS_0].count, gltf.accessors[body.POSITION].count);
+  assert.equal(gltf.skins[0].joints.length, gltf.accessors[gltf.skins[0].inverseBindMatrices].count);
+  assert.equal(gltf.animations.length, 1);
 });
 
 test("a worker keeps simulating while its page is blocked", async () => {

@@ -138,13 +138,17 @@ fn test_raylib() -> Result {
             shell::run(cc.arg(sources.join(part).with_extension("c")).arg("-o").arg(&object))?;
         }
     }
-    let program = dir().join("raylib-example");
-    let mut cc = c::strict_compiler(&example("raylib.c"));
-    cc.arg("-isystem").arg(&sources).arg("-o").arg(&program).arg(example("raylib.c"));
-    cc.args(RAYLIB_PARTS.map(|part| parts.join(part).with_extension("o")));
-    cc.arg(c::release_dir().join("libmuslin.a")).args(["-lX11", "-lm", "-lpthread", "-ldl"]);
-    shell::run(&mut cc)?;
-    draw(&program, &["--shot"], "raylib.png")
+    for name in ["raylib", "figure"] {
+        let (source, program) =
+            (example(&format!("{name}.c")), dir().join(format!("{name}-example")));
+        let mut cc = c::strict_compiler(&source);
+        cc.arg("-isystem").arg(&sources).arg("-o").arg(&program).arg(&source);
+        cc.args(RAYLIB_PARTS.map(|part| parts.join(part).with_extension("o")));
+        cc.arg(c::release_dir().join("libmuslin.a")).args(["-lX11", "-lm", "-lpthread", "-ldl"]);
+        shell::run(&mut cc)?;
+        draw(&program, &["--shot"], &format!("{name}.png"))?;
+    }
+    Ok(())
 }
 
 fn test_ogre() -> Result {

@@ -9,11 +9,13 @@ use crate::{browser, files, js, npm, picture, setup};
 /// The npm folders of three.js: release 160, and the newest one.
 const THREE: [&str; 2] = ["three-160", "three"];
 
-/// The folders that pages load from: the pages themselves, the package, three.js and Babylon.js.
+/// The folders that pages load from: the pages themselves, the package, three.js with its loaders, and
+/// Babylon.js.
 fn mounts(three: &str) -> Vec<Mount> {
     vec![
         Mount { at: "/muslin/", dir: js::dir() },
         Mount { at: "/vendor/", dir: npm::modules().join(three).join("build") },
+        Mount { at: "/jsm/", dir: npm::modules().join(three).join("examples/jsm") },
         Mount { at: "/babylonjs/", dir: npm::modules().join("babylonjs") },
         Mount { at: "/", dir: files::root().join("bindings/js/examples") },
     ]

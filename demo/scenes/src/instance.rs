@@ -1,18 +1,28 @@
-//! A scene while it runs: its cloths, and a ball that rolls through them if there is one.
+//! A scene while it runs: its cloths, and a ball or a figure that moves through them if there is
+//! one.
 //!
-//! The ball is a collider of the first cloth. It moves along z as a cosine of time, so before each
-//! tick it gets the pose at the end of that tick, and the collider sweeps there.
+//! The ball is a collider of the first cloth and moves along z as a cosine of time; the figure wears
+//! the first cloth. Before each tick they get their pose at the end of that tick, and the colliders
+//! sweep there.
 
+use crate::figure::dressed::DressedBody;
 use glam::{Quat, Vec3};
 use muslin::{Cloth, Collider, ColliderDesc, Result, Settings, Shape};
 use std::f32::consts::TAU;
 
-/// The cloths of a scene, and the ball that moves through them.
+/// The cloths of a scene, and the ball or the figure that moves through them.
 #[derive(Debug)]
 pub struct SceneInstance {
     /// The cloths, in the order of the scene.
     pub cloths: Vec<Cloth>,
-    ball: Option<RollingBall>,
+    mover: Option<Mover>,
+}
+
+/// What moves through the first cloth.
+#[derive(Debug)]
+enum Mover {
+    Ball(RollingBall),
+    Figure(Box<DressedBody>),
 }
 
 /// Motion of a ball that rolls back and forth along z.
@@ -48,13 +58,13 @@ impl BallMotion {
 
 impl From<Cloth> for SceneInstance {
     fn from(cloth: Cloth) -> Self {
-        Self { cloths: vec![cloth], ball: None }
+        Self { cloths: vec![cloth], mover: None }
     }
 }
 
 impl From<Vec<Cloth>> for SceneInstance {
     fn from(cloths: Vec<Cloth>) -> Self {
-        Self { cloths, ball: None }
+        Self { cloths, mover: None }
     }
 }
 
@@ -72,25 +82,61 @@ impl SceneInstance {
             rotation,
             ..ColliderDesc::default()
         })?;
-        Ok(Self { cloths: vec![cloth], ball: Some(RollingBall { motion, collider, ticks: 0 }) })
+        let ball = RollingBall { motion, collider, ticks: 0 };
+        Ok(Self { cloths: vec![cloth], mover: Some(Mover::Ball(ball)) })
+    }
+
+    /// Creates an instance of the clothes that a figure wears.
+    pub(crate) fn with_figure(cloth: Cloth, body: DressedBody) -> Self {
+        Self { cloths: vec![cloth], mover: Some(Mover::Figure(Box::new(body))) }
     }
 
     /// Returns centre and radius of the ball [m], if there is one.
     pub fn ball(&self) -> Option<(Vec3, f32)> {
-        let ball = self.ball.as_ref()?;
+        let Some(Mover::Ball(ball)) = &self.mover else {
+            return None;
+        };
         Some((ball.motion.pose_at(ball.seconds(&self.cloths[0])).0, ball.motion.radius))
+    }
+
+    /// Returns the figure, if there is one.
+    pub fn figure(&self) -> Option<&DressedBody> {
+        match &self.mover {
+            Some(Mover::Figure(body)) => Some(body),
+            _ => None,
+        }
+    }
+
+    /// Returns the cloths, and the figure if there is one.
+    pub fn parts(&mut self) -> (&mut [Cloth], Option<&DressedBody>) {
+        let figure = match &self.mover {
+            Some(Mover::Figure(body)) => Some(&**body),
+            _ => None,
+        };
+        (&mut self.cloths, figure)
+    }
+
+    /// Updates what is drawn of the figure, if there is one.
+    ///
+    /// # Errors
+    /// As [`DressedBody::update_drawn`].
+    pub fn update_drawn(&mut self) -> Result<()> {
+        match &mut self.mover {
+            Some(Mover::Figure(body)) => body.update_drawn(&self.cloths[0]),
+            _ => Ok(()),
+        }
     }
 
     /// Runs exactly `ticks` ticks of every cloth.
     pub fn step(&mut self, ticks: u32) {
-        let Some(ball) = &mut self.ball else {
+        let Some(mover) = &mut self.mover else {
             self.cloths.iter_mut().for_each(|cloth| cloth.step(ticks));
             return;
         };
         for _ in 0..ticks {
-            ball.set_target(&mut self.cloths[0]);
+            mover.set_targets(&mut self.cloths[0]);
             self.cloths[0].step(1);
-            ball.ticks = ball.ticks.wrapping_add(1);
+            mover.add_ticks(1);
         }
     }
 
@@ -99,20 +145,38 @@ impl SceneInstance {
     /// # Errors
     /// As [`Cloth::advance`]: `seconds` is negative or not finite.
     pub fn advance(&mut self, seconds: f32) -> Result<()> {
-        let Some(ball) = &mut self.ball else {
+        let Some(mover) = &mut self.mover else {
             return self.cloths.iter_mut().try_for_each(|cloth| cloth.advance(seconds).map(|_| ()));
         };
         let cloth = &mut self.cloths[0];
         let Settings { tick, max_ticks_per_advance, .. } = *cloth.settings();
-        // One tick at a time, so that the ball moves in every tick, also of a late frame.
+        // One tick at a time, so that it moves in every tick, also of a late frame.
         let mut remaining = seconds.min(tick * max_ticks_per_advance as f32);
         loop {
-            ball.set_target(cloth);
-            ball.ticks = ball.ticks.wrapping_add(cloth.advance(remaining.min(tick))?);
+            mover.set_targets(cloth);
+            mover.add_ticks(cloth.advance(remaining.min(tick))?);
             remaining -= tick;
             if remaining <= 0.0 {
                 return Ok(());
             }
+        }
+    }
+}
+
+impl Mover {
+    /// Sets the poses at the end of the next tick.
+    fn set_targets(&mut self, cloth: &mut Cloth) {
+        match self {
+            Self::Ball(ball) => ball.set_target(cloth),
+            Self::Figure(body) => body.set_targets(cloth),
+        }
+    }
+
+    /// Counts ticks that have run.
+    fn add_ticks(&mut self, ticks: u32) {
+        match self {
+            Self::Ball(ball) => ball.ticks = ball.ticks.wrapping_add(ticks),
+            Self::Figure(body) => body.add_ticks(ticks),
         }
     }
 }

@@ -2,10 +2,11 @@
 //! time them.
 //!
 //! Each scene is a type that implements [`Scene`]: it builds a [`SceneInstance`] (the cloths, and a
-//! ball that rolls through them if there is one), and checks that the cloth does what the scene is
-//! meant to show.
+//! ball or a figure that moves them if there is one), and checks that the cloth does what the scene
+//! is meant to show.
 
 pub mod disc;
+pub mod figure;
 pub mod receipt;
 pub mod shadow;
 pub mod squeeze;
@@ -17,9 +18,11 @@ mod hanging_sheet;
 mod instance;
 mod scene;
 mod sheet_on_ball;
+mod stage;
 
 pub use curtain::Curtain;
 pub use drapes::Drapes;
+pub use figure::Figure;
 pub use flag::Flag;
 pub use hanging_sheet::HangingSheet;
 pub use instance::{BallMotion, SceneInstance};

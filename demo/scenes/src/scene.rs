@@ -1,6 +1,7 @@
 //! The trait of all scenes, and the settings that they share.
 
 use crate::instance::SceneInstance;
+pub use crate::stage::FLOOR;
 use muslin::{SelfCollision, Settings};
 
 /// The largest number of particles with which surface collision runs in real time, also on a page.
@@ -8,9 +9,6 @@ const MAX_SURFACE_PARTICLES: u32 = 2500;
 
 /// Distance between layers in surface collision, large enough that they are drawn apart [m].
 const SELF_DISTANCE: f32 = 0.004;
-
-/// Height of the floor [m]; in a scene that is drawn enlarged, in enlarged metres.
-pub const FLOOR: f32 = -1.4;
 
 /// A situation for a cloth, and a check that it does what the scene is meant to show.
 pub trait Scene {

@@ -1,6 +1,7 @@
 //! Tests of the effect of pointers, controls and time on the cloth scenes.
 
 use super::*;
+use crate::scene_kind::SceneKind;
 
 fn app() -> App {
     App::new(Settings::default(), || 0.0).unwrap()

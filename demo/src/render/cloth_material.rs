@@ -148,6 +148,6 @@ impl ClothMaterial {
         );
         p.use_uniform("gloss", three_d::Vec4::new(across, along, strength, mirror));
         p.use_uniform("fibres", three_d::Vec2::new(appearance.fuzz, appearance.transmission));
-        p.use_uniform("printed", if appearance.printed { 1.0_f32 } else { 0.0 });
+        p.use_uniform("printed", appearance.print as u32 as f32);
     }
 }

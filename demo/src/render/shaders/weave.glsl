@@ -7,7 +7,7 @@ uniform vec3 frontAlbedo;
 uniform vec3 backAlbedo;
 uniform vec3 seamAlbedo;
 uniform float seamCover;
-uniform float printed;
+uniform float printed; // 0 nothing, 1 the flag, 2 stripes, 3 two bands above the hem
 uniform float roundHem; // 1.0: a disc with a circular hem
 
 const float PI = 3.14159265;
@@ -81,12 +81,17 @@ vec3 flag(vec2 p, float footprint) {
     return c;
 }
 
+// Weight of a stripe of this half width, at a distance from its middle.
+float stripe(float from, float halfWidth, float footprint) {
+    return smoothstep(halfWidth + footprint, halfWidth - footprint, from);
+}
+
 // Colour of a face, with hem and seam. `hem` returns the weight of the hem.
 vec3 fabricColour(bool front, vec2 uv, float footprint, out float hem) {
     vec2 m = uv * span;
     vec3 c = front ? frontAlbedo : backAlbedo;
     // Texture coordinates count upwards, but the flag is defined from the top.
-    if (printed > 0.5) c = flag(vec2(uv.x, 1.0 - uv.y), footprint);
+    if (printed == 1.0) c = flag(vec2(uv.x, 1.0 - uv.y), footprint);
     if (cloth.w == 1.0) {
         // Denim: uneven indigo along the warp, and white weft between the ridges.
         float streak = noise(vec2(m.x * 210.0, m.y * 3.0)) - 0.5;
@@ -96,9 +101,14 @@ vec3 fabricColour(bool front, vec2 uv, float footprint, out float hem) {
         float ridge = 0.5 + 0.5 * sin(PI * (m.x + m.y) * cloth.x);
         vec3 white = vec3(0.50, 0.54, 0.62);
         c = mix(c, front ? white : frontAlbedo, near * 0.34 * (1.0 - ridge));
-    } else if (printed < 0.5) {
+    } else if (printed != 1.0) {
         float fine = 1.0 - smoothstep(0.2, 0.7, footprint * 65.0);
         c *= 1.0 + fine * cloth.z * (noise(vec2(m.x * 65.0, m.y * 2.5)) + noise(vec2(m.x * 2.0 + 71.0, m.y * 65.0)) - 1.0);
+    }
+    if (printed == 2.0) c = mix(c, seamAlbedo, stripe(abs(fract(m.y / 0.034) - 0.5) * 0.034, 0.0055, footprint));
+    if (printed == 3.0) {
+        c = mix(c, seamAlbedo, stripe(abs(m.y - 0.052), 0.011, footprint));
+        c = mix(c, seamAlbedo, stripe(abs(m.y - 0.078), 0.004, footprint));
     }
     // Hem: folded twice, so its colour is deeper and less light passes; with a seam.
     vec2 inside = min(m, span - m);
