@@ -136,11 +136,9 @@ impl DressedBody {
             colliders.push(cloth.add_collider(&desc)?);
         }
         let skin = |panel: &Panel, bone: Bone| {
-            let mut desc = SkinDesc::default();
-            desc.positions = worn(panel, bone);
-            desc.indices = panel.indices.clone();
-            desc.uvs = panel.uvs.clone();
-            Skin::new(&cloth, &desc)
+            let positions = worn(panel, bone);
+            let (indices, uvs) = (panel.indices.clone(), panel.uvs.clone());
+            Skin::new(&cloth, &SkinDesc { positions, indices, uvs, ..SkinDesc::default() })
         };
         let skins =
             [skin(&skirt(SKIN_DETAIL), Bone::Pelvis)?, skin(&shirt(SKIN_DETAIL), Bone::Chest)?];
