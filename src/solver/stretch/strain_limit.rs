@@ -21,9 +21,9 @@
 //!
 //! A cloth that pins, grabs or anchors hold apart cannot satisfy the limit. This is reported once.
 //! Once they release it, its last tick is not within the limit, so there is no state to roll back
-//! to. It then contracts by tethers and up to 2000 rounds while these make progress, over several
-//! ticks if it was stretched far. The particles that move get zero velocity, so that the contraction
-//! does not fling the cloth.
+//! to. It then contracts by tethers and up to 2000 rounds, over several ticks if it was stretched
+//! far; among colliders only while rounds make progress. The particles that move get zero velocity,
+//! so that the contraction does not fling the cloth.
 //!
 //! **Velocities** (4). The corrections x − x₀ of the tick of length T count as velocity, but
 //! bounded: links that contradict each other push a particle out and the limit pulls it back, which
@@ -67,8 +67,9 @@ const ROUNDING_MARGIN: f32 = 4.0e-3;
 /// The share of `max_stretch` that a projected link keeps, so that the sweeps end.
 const TARGET_SHARE: f32 = 0.5;
 
-/// Number of rounds between two measurements of a contraction, and the share of the excess that it
-/// must lose in them. Otherwise colliders hold the cloth apart, and it goes on in the next tick.
+/// Number of rounds between two measurements of a contraction among colliders, and the share of the
+/// excess that it must lose in them. Otherwise they hold the cloth apart, and it goes on in the next
+/// tick.
 const CONTRACTION_CHECK: u32 = 20;
 const LEAST_PROGRESS: f32 = 0.05;
 
@@ -118,6 +119,7 @@ fn project_all(world: &mut World, limit: f32) {
     let has_anchors = !world.anchors.is_empty();
     let is_free_again = was_over && !has_anchors && !is_held_apart(world, limit);
     tethers::refresh_pin_positions(world);
+    let has_colliders = world.colliders.iter().next().is_some();
     let mut excess = f32::INFINITY;
     for round in 0..if is_free_again { MAX_CONTRACTION_ROUNDS } else { MAX_ROUNDS } {
         if is_free_again {
@@ -143,7 +145,8 @@ fn project_all(world: &mut World, limit: f32) {
         if find_over_stretched(world, limit).is_none() {
             break;
         }
-        if is_free_again && round % CONTRACTION_CHECK == CONTRACTION_CHECK - 1 {
+        let is_checked = round % CONTRACTION_CHECK == CONTRACTION_CHECK - 1;
+        if is_free_again && has_colliders && is_checked {
             let left = largest_excess(world, limit);
             if left > excess * (1.0 - LEAST_PROGRESS) {
                 break;
