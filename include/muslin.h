@@ -1530,6 +1530,22 @@ MuslinStatus muslin_cloth_set_map(MuslinCloth cloth,
                                   uint32_t count);
 
 /**
+ * Reads a painted map: one scale per particle, also of those that tears and cuts added; 1 for all if
+ * the map is not set.
+ *
+ * `map` is a MUSLIN_MAP_ value. `out_scales` (may be NULL) receives `count` scales, `out_is_set` (may
+ * be NULL) 1 if the map is set, else 0.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE for any other `map`, or if `count` is not the number of particles;
+ * without `out_scales`, `count` is ignored
+ */
+MuslinStatus muslin_cloth_get_map(MuslinCloth cloth,
+                                  uint32_t map,
+                                  float *out_scales,
+                                  uint32_t count,
+                                  uint32_t *out_is_set);
+
+/**
  * Places a particle at `position` [m] at once. Its velocity stays as it is. A pinned particle
  * stays pinned, at the new position.
  *
@@ -1918,6 +1934,34 @@ MuslinStatus muslin_cloth_update_collider(MuslinCloth cloth,
                                           const float *positions,
                                           uint32_t stride,
                                           uint32_t count);
+
+/**
+ * Makes the surface of another cloth a collider of this one, or updates it: clothes in layers, the
+ * inner one first.
+ *
+ * Call it in each frame between the muslin_cloth_advance of the inner cloth, `other`, and that of the
+ * outer one. `inout_collider` starts as {0}: then the collider is added, where `other` is now, and its
+ * handle written. With the handle of an earlier call, the collider reaches the present positions of
+ * `other` evenly over the ticks of the next muslin_cloth_advance, or in the next tick of
+ * muslin_cloth_step, and is swept on its way. It has two sides: this cloth stays on the side where it
+ * is. It keeps the mean of both thicknesses away, half of each, and has the mean of both coefficients
+ * of friction, as in the call; maps of `other` do not count. Where `other` has torn or been cut
+ * since, the collider takes its new triangles, which takes as long as adding it; the handle stays.
+ *
+ * The effect is one-way: `other` does not feel this cloth. Several pieces in one mesh, with
+ * MUSLIN_SELF_COLLISION_SURFACE, bear on each other, and nothing passes through; a layer gives no
+ * such guarantee where both cloths crumple or are squeezed. The motion since the last call is swept:
+ * after a reset or teleport of both cloths, remove the collider and start with {0} again. A save
+ * contains the collider, and the handle is valid for the restored cloth too.
+ *
+ * @return MUSLIN_STATUS_BAD_HANDLE if a cloth is not live, or the collider was removed;
+ * MUSLIN_STATUS_BAD_VALUE if `other` is the cloth itself, the collider is no mesh, no triangle of
+ * `other` has an area, or a particle of it is 1e6 m or more from its origin; MUSLIN_STATUS_FULL if
+ * there are 1024 colliders already; MUSLIN_STATUS_BUSY if either cloth is in use on another thread
+ */
+MuslinStatus muslin_cloth_collide_with(MuslinCloth cloth,
+                                       MuslinCloth other,
+                                       MuslinCollider *inout_collider);
 
 /**
  * Removes a collider. Its handle becomes stale.

@@ -370,6 +370,12 @@ class Cloth {
   Done set_map(std::uint32_t map, const float *scales, std::uint32_t count) noexcept {
     return muslin_cloth_set_map(cloth_, map, scales, count);
   }
+  /** Reads a map into `count` scales; whether it is set. */
+  Result<bool> get_map(std::uint32_t map, float *out_scales, std::uint32_t count) const noexcept {
+    std::uint32_t is_set = 0;
+    const MuslinStatus status = muslin_cloth_get_map(cloth_, map, out_scales, count, &is_set);
+    return {status, is_set != 0};
+  }
   Result<MuslinAttachment> attach(const std::uint32_t *particles, std::uint32_t count,
                                   MuslinVec3 position, MuslinQuat rotation) noexcept {
     MuslinAttachment attachment{};
@@ -496,6 +502,12 @@ class Cloth {
   Done update_collider(MuslinCollider collider, const float *positions, std::uint32_t count,
                        std::uint32_t stride = 0) noexcept {
     return muslin_cloth_update_collider(cloth_, collider, positions, stride, count);
+  }
+  /** Makes the surface of another cloth a collider, or updates it: once per frame, between the
+   * advance() of `other` and that of this cloth, first with {} and then with what it returned. */
+  Result<MuslinCollider> collide_with(const Cloth &other, MuslinCollider collider = {}) noexcept {
+    const MuslinStatus status = muslin_cloth_collide_with(cloth_, other.cloth_, &collider);
+    return {status, collider};
   }
   Done remove_collider(MuslinCollider collider) noexcept {
     return muslin_cloth_remove_collider(cloth_, collider);

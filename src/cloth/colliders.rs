@@ -7,7 +7,7 @@
 use crate::cloth::Cloth;
 use crate::error::Result;
 use crate::math::float_env::with_float_env;
-use crate::state::collider_desc::ColliderDesc;
+use crate::state::collider_desc::{ColliderDesc, check_coordinates};
 use crate::state::colliders::{Collider, ColliderBody, Impulse};
 use crate::state::pose::Pose;
 use glam::{Quat, Vec3};
@@ -83,8 +83,10 @@ impl Cloth {
     /// is unchanged.
     pub fn update_collider(&mut self, collider: Collider, positions: &[Vec3]) -> Result<()> {
         self.check_collider_vertices(collider, positions.len())?;
+        check_coordinates(positions.len(), &|i| positions[i], "positions")?;
         let body = self.world.colliders.get_mut(collider.0, "collider")?;
-        with_float_env(|| body.update(positions))
+        with_float_env(|| body.update(&|i| positions[i]));
+        Ok(())
     }
 
     /// Checks that a collider is a mesh of `count` vertices, for language bindings.

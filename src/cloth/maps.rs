@@ -71,4 +71,9 @@ impl Cloth {
         });
         Ok(())
     }
+    /// Returns the scales of a painted map, one per particle; `None` if it is not set. Particles that
+    /// tears and cuts added are at the end.
+    pub fn map(&self, map: Map) -> Option<&[f32]> {
+        self.world.maps.get(map)
+    }
 }

@@ -23,6 +23,7 @@ mod cut;
 pub(crate) mod desc;
 mod grabs;
 mod interpolated_surface;
+mod layers;
 mod maps;
 pub(crate) mod mass_properties;
 mod mass_scales;

@@ -154,11 +154,15 @@ fn is_near(x: &Vec3) -> bool {
     x.to_array().iter().all(|c| c.abs() < MAX_COORDINATE)
 }
 
-/// Returns [`Error::BadEntry`] for the first point of the list `field` that is too far from zero or
-/// not finite.
-pub(crate) fn check_coordinates(list: &[Vec3], field: &'static str) -> Result<()> {
+/// Returns [`Error::BadEntry`] for the first of the `count` points of the list `field` that is too
+/// far from zero or not finite.
+pub(crate) fn check_coordinates(
+    count: usize,
+    point: &dyn Fn(usize) -> Vec3,
+    field: &'static str,
+) -> Result<()> {
     let must = "be between -1e6 and 1e6";
-    match list.iter().position(|x| !is_near(x)) {
+    match (0..count).position(|i| !is_near(&point(i))) {
         None => Ok(()),
         Some(index) => Err(Error::BadEntry { field, index: index as u32, must }),
     }

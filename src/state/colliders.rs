@@ -7,7 +7,7 @@ use crate::arena::Arena;
 use crate::error::{Result, check, check_finite};
 use crate::geometry::collision_shape::CollisionShape;
 use crate::math::{max, saturate};
-use crate::state::collider_desc::{ColliderDesc, Shape, check_coordinates};
+use crate::state::collider_desc::{ColliderDesc, Shape};
 use crate::state::deformation::Deformation;
 use crate::state::origin::{is_valid_origin, whole_metres};
 use crate::state::pose::{COLLIDER_FIELDS, Pose, check_pose};
@@ -189,21 +189,59 @@ impl ColliderBody {
 
     /// Sets the vertices of a mesh that the next tick, or the ticks of the next `advance`, reach, in
     /// the local frame [m].
-    ///
-    /// # Errors
-    /// [`Error::BadEntry`](crate::Error::BadEntry) for a vertex that is not near enough. The collider
-    /// is unchanged then.
-    pub fn update(&mut self, positions: &[Vec3]) -> Result<()> {
-        check_coordinates(positions, "positions")?;
+    pub fn update(&mut self, position: &dyn Fn(usize) -> Vec3) {
+        let center = self.center;
+        if let Some(deformation) = self.make_deformable() {
+            deformation.set_target(&|i| position(i) - center);
+        }
+    }
+
+    fn make_deformable(&mut self) -> Option<&mut Deformation> {
         if self.deformation.is_none() {
             let (base, triangles) = self.desc.mesh_surface();
             self.deformation = Deformation::new(&base, triangles).map(Box::new);
             self.collision_shape = None;
         }
-        if let Some(deformation) = &mut self.deformation {
-            deformation.set_target(positions.iter().map(|x| *x - self.center));
+        self.deformation_mut()
+    }
+
+    /// A vertex of a mesh where it is at the start of the next tick, in the local frame [m].
+    pub fn vertex(&self, i: usize) -> Vec3 {
+        match &self.deformation {
+            Some(deformation) => deformation.vertices().last[i] + self.center,
+            None => self.desc.positions[i],
         }
-        Ok(())
+    }
+
+    /// Moves the local frame of a mesh that is not rotated to the absolute `position` [m]. The
+    /// surface stays where it is until it is updated.
+    pub fn move_mesh_frame(&mut self, position: Vec3, origin: Vec3) {
+        let shift = self.desc.position - position;
+        if let Some(deformation) = self.make_deformable() {
+            deformation.translate(shift);
+        }
+        self.move_last_frame(-shift);
+        self.desc.position = position;
+        self.place(Quat::IDENTITY, origin);
+    }
+
+    /// Replaces a mesh by that of `new`, at the same position. The vertices of `new` are at `start`
+    /// at the start of the next tick, in the local frame [m]. The pose at that time and the impulses
+    /// stay.
+    pub fn replace_mesh(&mut self, mut new: Self, start: &[Vec3]) {
+        let center = new.center;
+        if let Some(deformation) = new.make_deformable() {
+            deformation.place(&|i| start[i] - center);
+        }
+        new.last = self.last;
+        new.move_last_frame(new.center - self.center);
+        (new.impulse, new.pending) = (self.impulse, self.pending);
+        *self = new;
+    }
+
+    /// Moves the pose at the end of the last tick by a vector of its frame [m].
+    fn move_last_frame(&mut self, local: Vec3) {
+        self.last.position = self.last.offset(self.last.position.as_dvec3(), local);
     }
 
     /// Upper bound of how far the rotation of a tick takes any point of the collider from the

@@ -92,10 +92,28 @@ impl Deformation {
     }
 
     /// Sets the vertices that the next tick, or the ticks of the next `advance`, reach.
-    pub fn set_target(&mut self, positions: impl Iterator<Item = Vec3>) {
+    pub fn set_target(&mut self, position: &dyn Fn(usize) -> Vec3) {
         self.target.clear();
-        self.target.extend(positions);
+        self.target.extend((0..self.last.len()).map(position));
         self.first_step(1);
+    }
+
+    /// Moves the vertices at the start of the next tick by `shift` [m], with their frame.
+    pub fn translate(&mut self, shift: Vec3) {
+        self.last.iter_mut().for_each(|x| *x += shift);
+        self.first_step(1);
+        self.is_prepared = false;
+    }
+
+    /// Places the vertices at once: where they start the next tick, and where they end it until a
+    /// target is set.
+    pub fn place(&mut self, position: &dyn Fn(usize) -> Vec3) {
+        for (i, (last, next)) in self.last.iter_mut().zip(&mut self.next).enumerate() {
+            *last = position(i);
+            *next = *last;
+        }
+        self.target.copy_from_slice(&self.next);
+        (self.is_moving, self.is_prepared) = (false, false);
     }
 
     /// Sets the vertices at the end of the next tick: after the first of `count` equal steps to the

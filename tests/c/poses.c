@@ -159,6 +159,44 @@ static void a_mesh_reaches_new_vertices(void) {
   DONE(muslin_cloth_remove_collider(cloth, body));
 }
 
+static MuslinCloth sheet(float height, float spacing, uint32_t pin_mode) {
+  MuslinGridDesc desc;
+  MuslinCloth made = {0};
+  muslin_grid_desc_init(&desc);
+  desc.columns = desc.rows = 7;
+  desc.spacing = spacing;
+  desc.pin_mode = pin_mode;
+  desc.origin.x = desc.origin.z = -3 * spacing;
+  desc.origin.y = height;
+  desc.down.y = 0;
+  desc.down.z = 1;
+  DONE(muslin_cloth_create_grid(&desc, &made));
+  return made;
+}
+
+static float mean_height(MuslinCloth of) {
+  MuslinVec3 center;
+  DONE(muslin_cloth_get_mass(of, NULL, &center, NULL));
+  return center.y;
+}
+
+static void a_sheet_lies_on_another_one(void) {
+  MuslinCloth inner = sheet(0, 0.1f, MUSLIN_PIN_CORNERS), outer = sheet(0.02f, 0.04f, MUSLIN_PIN_NONE);
+  MuslinCollider layer = {0}, first = {0};
+  for (int tick = 0; tick < 90; tick++) {
+    if (tick == 60) DONE(muslin_cloth_tear_edge(inner, 0, 7));
+    DONE(muslin_cloth_step(inner, 1));
+    DONE(muslin_cloth_collide_with(outer, inner, &layer));
+    DONE(muslin_cloth_step(outer, 1));
+    if (tick == 0) first = layer;
+  }
+  CHECK(layer.id != 0 && layer.id == first.id);
+  CHECK(mean_height(outer) > mean_height(inner) && mean_height(outer) > -0.5f);
+  DONE(muslin_cloth_destroy(inner));
+  REFUSED(muslin_cloth_collide_with(outer, inner, &layer), MUSLIN_STATUS_BAD_HANDLE, "`other` must be a live cloth");
+  DONE(muslin_cloth_destroy(outer));
+}
+
 static void a_painted_map_scales_the_drag_until_it_is_taken_away(void) {
   static const uint32_t maps[] = {MUSLIN_MAP_STRETCH,  MUSLIN_MAP_BEND,      MUSLIN_MAP_TEAR,
                                   MUSLIN_MAP_FRICTION, MUSLIN_MAP_THICKNESS, MUSLIN_MAP_DRAG};
@@ -177,6 +215,12 @@ static void a_painted_map_scales_the_drag_until_it_is_taken_away(void) {
     DONE(muslin_cloth_set_map(cloth, maps[i], NULL, 7));
     CHECK(hash_of(cloth) == before);
   }
+  float read[48];
+  uint32_t is_set = 7;
+  DONE(muslin_cloth_get_map(cloth, MUSLIN_MAP_DRAG, read, 48, &is_set));
+  CHECK(is_set == 1 && memcmp(read, scales, sizeof read) == 0);
+  DONE(muslin_cloth_get_map(cloth, MUSLIN_MAP_TEAR, read, 48, &is_set));
+  CHECK(is_set == 0 && read[0] == 1 && read[47] == 1);
   DONE(muslin_cloth_unpin_all(cloth));
   DONE(muslin_cloth_step(cloth, 1));
   float v[3 * 48];
@@ -198,6 +242,7 @@ int main(void) {
   TEST(cheap_questions_have_the_answers_of_the_statistics);
   TEST(a_collider_is_where_its_last_tick_took_it);
   TEST(a_mesh_reaches_new_vertices);
+  TEST(a_sheet_lies_on_another_one);
   TEST(a_painted_map_scales_the_drag_until_it_is_taken_away);
   DONE(muslin_cloth_destroy(cloth));
   return failures != 0;

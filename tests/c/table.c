@@ -1,6 +1,6 @@
 /* Every argument of every function: an invalid value is refused with its status and a message that names the
  * argument, and leaves the cloth unchanged. `cargo xtask c` checks that no argument of muslin.h lacks a row. */
-#include "check.h"
+#include "table.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -23,36 +23,6 @@ static uint64_t hash(void) {
   DONE(muslin_cloth_state_hash(cloth, &hash));
   return hash;
 }
-
-/* Calls `function` with an invalid `argument`. */
-#define ROW(function, argument, status, words, given)     \
-  do {                                                    \
-    const uint64_t before = hash();                       \
-    REFUSED(function given, status, words);               \
-    CHECK(hash() == before && word == 7);                 \
-    rows++;                                               \
-  } while (0)
-
-/* `function` accepts any `argument`. */
-#define ANY(function, argument) (void)(function)
-
-/* Calls `function` with a handle of no cloth. */
-#define OF_NONE(function, given) ROW(function, cloth, HANDLE, "`cloth`", given)
-
-/* An initialised struct with one field changed. */
-#define BEGUN(type, name, field, value) \
-  type name;                            \
-  BEGIN_##type(&name);                  \
-  name.field = value
-#define BEGIN_MuslinGridDesc muslin_grid_desc_init
-#define BEGIN_MuslinMeshDesc muslin_mesh_desc_init
-#define BEGIN_MuslinSettings muslin_settings_init
-#define BEGIN_MuslinMaterial muslin_material_init
-#define BEGIN_MuslinWind muslin_wind_init
-#define BEGIN_MuslinColliderDesc muslin_collider_desc_init
-#define BEGIN_MuslinWriteDesc muslin_write_desc_init
-#define BEGIN_MuslinSkinDesc muslin_skin_desc_init
-#define BEGIN_MuslinSewDesc muslin_sew_desc_init
 
 static void init_functions(void) {
   union {
@@ -172,6 +142,11 @@ static void parameters_time_and_particles(void) {
   ROW(muslin_cloth_set_map, map, VALUE, "`map`", (cloth, 6, scales, 400));
   ROW(muslin_cloth_set_map, scales, VALUE, "`scales[17]`", (cloth, MUSLIN_MAP_DRAG, scales, 400));
   ROW(muslin_cloth_set_map, count, VALUE, "`count` must be 400", (cloth, MUSLIN_MAP_DRAG, scales, 401));
+  OF_NONE(muslin_cloth_get_map, (none, MUSLIN_MAP_TEAR, scales, 400, &word));
+  ROW(muslin_cloth_get_map, map, VALUE, "`map`", (cloth, 6, scales, 400, &word));
+  ROW(muslin_cloth_get_map, count, VALUE, "`count` must be 400", (cloth, MUSLIN_MAP_DRAG, scales, 401, &word));
+  ANY(muslin_cloth_get_map, out_scales);
+  ANY(muslin_cloth_get_map, out_is_set);
   OF_NONE(muslin_cloth_set_position, (none, 0, zero));
   ROW(muslin_cloth_set_position, particle, INDEX, "`particle`", (cloth, 400, zero));
   ROW(muslin_cloth_set_position, position, VALUE, "`position`", (cloth, 0, not_finite));
@@ -393,6 +368,25 @@ static void colliders(void) {
   DONE(muslin_cloth_remove_collider(cloth, body));
 }
 
+static void layers(void) {
+  MuslinCollider layer = {0}, known = {9};
+  MuslinCloth inner;
+  BEGUN(MuslinGridDesc, grid, columns, 4);
+  grid.rows = 4;
+  DONE(muslin_cloth_create_grid(&grid, &inner));
+  OF_NONE(muslin_cloth_collide_with, (none, inner, &layer));
+  ROW(muslin_cloth_collide_with, other, HANDLE, "`other` must be a live cloth", (cloth, none, &layer));
+  ROW(muslin_cloth_collide_with, other, VALUE, "`other` must be another cloth", (cloth, cloth, &layer));
+  ROW(muslin_cloth_collide_with, inout_collider, VALUE, "`inout_collider`", (cloth, inner, NULL));
+  ROW(muslin_cloth_collide_with, inout_collider, HANDLE, "`collider`", (cloth, inner, &known));
+  CHECK(layer.id == 0 && known.id == 9);
+  BEGUN(MuslinColliderDesc, ground, friction, 1);
+  DONE(muslin_cloth_add_collider(cloth, &ground, &known));
+  ROW(muslin_cloth_collide_with, inout_collider, VALUE, "`collider` must be a mesh", (cloth, inner, &known));
+  DONE(muslin_cloth_remove_collider(cloth, known));
+  DONE(muslin_cloth_destroy(inner));
+}
+
 /* An output struct that is not initialised. */
 #define REPORT(function, type, argument, words)                        \
   do {                                                                 \
@@ -491,6 +485,7 @@ int main(void) {
   TEST(attachments_anchors_and_frames);
   TEST(rays_grabs_tears_and_cuts);
   TEST(colliders);
+  TEST(layers);
   TEST(views_statistics_and_streams);
   TEST(skins);
   printf("%d rows\n", rows);

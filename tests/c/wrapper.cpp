@@ -36,7 +36,10 @@ void worn(muslin::Cloth &cloth) {
   const std::vector<float> painted(400, 2.0f);
   cloth.set_map(MUSLIN_MAP_BEND, painted.data(), 400).value();
   CHECK(cloth.set_map(MUSLIN_MAP_BEND, painted.data(), 399).status() == MUSLIN_STATUS_BAD_VALUE);
+  std::vector<float> read(400);
+  CHECK(cloth.get_map(MUSLIN_MAP_BEND, read.data(), 400).value() && read == painted);
   cloth.set_map(MUSLIN_MAP_BEND, nullptr, 0).value();
+  CHECK(!cloth.get_map(MUSLIN_MAP_BEND, nullptr, 0).value());
   cloth.set_max_distances(last, &distance, 1).value();
   cloth.set_backstops(last, &behind, &radius, 1).value();
   cloth.set_anchors(last, &anchor, &normal, 0, 1).value();
@@ -159,6 +162,9 @@ void a_cloth_does_all_that_c_does() {
   const std::uint32_t pairs[] = {0, 19, 20, 39}, twice[] = {7, 7};
   cloth.sew(pairs, 2, muslin::sew_desc()).value();
   CHECK(cloth.sew(twice, 1, muslin::sew_desc()).status() == MUSLIN_STATUS_BAD_VALUE);
+  const MuslinCollider layer = cloth.collide_with(same).value();
+  CHECK(cloth.collide_with(same, layer).value().id == layer.id);
+  CHECK(cloth.collide_with(cloth).status() == MUSLIN_STATUS_BAD_VALUE);
   cloth.unpin_all().value();
   cloth.reset().value();
   CHECK(cloth.stats().value().particles == 400);

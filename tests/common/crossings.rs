@@ -18,14 +18,33 @@ pub fn crossing_pairs(cloth: &Cloth) -> Vec<[u32; 2]> {
 
 /// The same with the vertices at `positions`.
 pub fn crossing_pairs_at(cloth: &Cloth, positions: &[Vec3]) -> Vec<[u32; 2]> {
-    let x: Vec<DVec3> = positions.iter().map(|x| x.as_dvec3()).collect();
     let triangles = super::triangles(cloth);
-    let corners = |t: usize| triangles[t].map(|v| x[v as usize]);
-    let bounds = |t: usize| {
-        let [a, b, c] = corners(t);
-        (a.min(b).min(c), a.max(b).max(c))
-    };
-    let boxes: Vec<(DVec3, DVec3)> = (0..triangles.len()).map(bounds).collect();
+    let shares =
+        |[one, other]: [usize; 2]| triangles[one].iter().any(|v| triangles[other].contains(v));
+    intersecting_pairs(&corners_at(cloth, positions), &|pair| !shares(pair))
+}
+
+/// Number of pairs of a triangle of one cloth and a triangle of the other that intersect.
+pub fn crossings_between(one: &Cloth, other: &Cloth) -> usize {
+    let mut all = corners_at(one, one.positions());
+    let count = all.len();
+    all.extend(corners_at(other, other.positions()));
+    intersecting_pairs(&all, &|[a, b]| (a < count) != (b < count)).len()
+}
+
+/// The corners of all triangles with the vertices at `positions`.
+fn corners_at(cloth: &Cloth, positions: &[Vec3]) -> Vec<[DVec3; 3]> {
+    let corner = |v: u32| positions[v as usize].as_dvec3();
+    super::triangles(cloth).into_iter().map(|triangle| triangle.map(corner)).collect()
+}
+
+/// Indices of the triangles of each intersecting pair that `may_cross` accepts, lower index first.
+fn intersecting_pairs(
+    triangles: &[[DVec3; 3]],
+    may_cross: &dyn Fn([usize; 2]) -> bool,
+) -> Vec<[u32; 2]> {
+    let bounds = |[a, b, c]: &[DVec3; 3]| (a.min(*b).min(*c), a.max(*b).max(*c));
+    let boxes: Vec<(DVec3, DVec3)> = triangles.iter().map(bounds).collect();
     let mut order: Vec<usize> = (0..triangles.len()).collect();
     order.sort_by(|a, b| boxes[*a].0.x.total_cmp(&boxes[*b].0.x));
     let mut pairs = Vec::new();
@@ -36,8 +55,10 @@ pub fn crossing_pairs_at(cloth: &Cloth, positions: &[Vec3]) -> Vec<[u32; 2]> {
                 break;
             }
             let is_near = low.cmple(other_high).all() && other_low.cmple(high).all();
-            let shares = triangles[*one].iter().any(|v| triangles[*other].contains(v));
-            if is_near && !shares && triangles_intersect(corners(*one), corners(*other)) {
+            if is_near
+                && may_cross([*one, *other])
+                && triangles_intersect(triangles[*one], triangles[*other])
+            {
                 pairs.push([*one.min(other) as u32, *one.max(other) as u32]);
             }
         }

@@ -1,5 +1,6 @@
 //! Mesh colliders that deform: the bodies of characters.
 
+use crate::common::shapes::{depth_in_tube, swung, tube};
 use muslin::glam::{Quat, Vec3};
 use muslin::{
     Cloth, Collider, ColliderDesc, Error, GridDesc, MeshDesc, PinMode, SelfCollision, Settings,
@@ -44,46 +45,6 @@ fn lying_sheet(self_collision: SelfCollision) -> Cloth {
         ..GridDesc::default()
     };
     Cloth::grid(&desc).unwrap()
-}
-
-/// A tube around the y axis of `around` x `rows` vertices, its lower end first.
-fn tube(around: u32, rows: u32, radius: f32, [bottom, top]: [f32; 2]) -> (Vec<Vec3>, Vec<u32>) {
-    let position = |v: u32| {
-        let angle = TAU * (v % around) as f32 / around as f32;
-        let y = bottom + (top - bottom) * (v / around) as f32 / (rows - 1) as f32;
-        Vec3::new(radius * angle.cos(), y, radius * angle.sin())
-    };
-    let cell = |v: u32| {
-        let (a, b) = (v, v / around * around + (v + 1) % around);
-        [a, a + around, b, b, a + around, b + around]
-    };
-    let indices = (0..around * (rows - 1)).flat_map(cell).collect();
-    ((0..around * rows).map(position).collect(), indices)
-}
-
-/// Swings the part of a body below y = 0.15 m about a hip, as a leg kicks: the rings of a tube turn,
-/// and stay plane and round.
-fn swung(body: &[Vec3], angle: f32) -> Vec<Vec3> {
-    let hip = Vec3::Y * 0.1;
-    let turned = |x: &Vec3| {
-        let share = ((0.15 - x.y) / 0.3).clamp(0.0, 1.0);
-        let share = share * share * (3.0 - 2.0 * share);
-        hip + Quat::from_rotation_z(angle * share) * (*x - hip)
-    };
-    body.iter().map(turned).collect()
-}
-
-/// How deep a point lies in a tube [m], 0 outside: the smallest depth behind the triangles around its
-/// nearest vertex.
-fn depth_in_tube(tube: &[Vec3], indices: &[u32], x: Vec3) -> f32 {
-    let distance = |i: &usize| tube[*i].distance_squared(x);
-    let nearest = (0..tube.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
-    let near = indices.chunks(3).filter(|corners| corners.contains(&(nearest as u32)));
-    let height = |corners: &[u32]| {
-        let [a, b, c] = [0, 1, 2].map(|k| tube[corners[k] as usize]);
-        (x - a).dot((b - a).cross(c - a).normalize())
-    };
-    near.map(|corners| -height(corners)).fold(f32::INFINITY, f32::min).max(0.0)
 }
 
 #[test]

@@ -26,6 +26,7 @@ mod fast_impacts;
 mod friction_and_contact;
 mod hard_constraints;
 mod impact_momentum;
+mod layers;
 mod maps;
 mod particle_collision;
 mod rest_with_intersections;

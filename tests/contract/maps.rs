@@ -176,6 +176,24 @@ fn restored_and_cloned_cloths_continue_with_the_same_bits_after_tears_and_cuts()
 }
 
 #[test]
+fn maps_can_be_read_with_the_scales_of_particles_that_tears_and_cuts_added() {
+    for mut cloth in cloths(SelfCollision::None) {
+        assert!(Map::ALL.iter().all(|map| cloth.map(*map).is_none()));
+        let count = cloth.particle_count();
+        let scales = uneven(count);
+        cloth.set_map(Map::Drag, Some(&scales)).unwrap();
+        assert_eq!(cloth.map(Map::Drag), Some(&scales[..]));
+        assert_eq!(cloth.map(Map::Bend), None);
+        tear_and_cut(&mut cloth);
+        let read = cloth.map(Map::Drag).unwrap();
+        assert!(read.len() == cloth.particle_count() as usize && read.len() > scales.len());
+        assert_eq!(read[..scales.len()], scales);
+        cloth.set_map(Map::Drag, None).unwrap();
+        assert_eq!(cloth.map(Map::Drag), None);
+    }
+}
+
+#[test]
 fn particles_that_tears_split_off_take_the_scale_of_their_source() {
     for cloth in cloths(SelfCollision::None) {
         let [mut painted, mut plain] = [cloth.clone(), cloth];

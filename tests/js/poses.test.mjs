@@ -136,9 +136,12 @@ test("a painted map scales what the material says until it is taken away", () =>
     const before = cloth.stateHash();
     cloth.setMap(map, new Float32Array(scales));
     assert.notEqual(cloth.stateHash(), before, map);
+    assert.deepEqual(cloth.map(map), new Float32Array(scales));
     cloth.setMap(map, null);
+    assert.equal(cloth.map(map), null);
     assert.equal(cloth.stateHash(), before, map);
   }
+  assert.throws(() => cloth.map("weight"), /`map` must be one of "stretch"/);
   assert.throws(() => cloth.setMap("tear", scales.with(17, -1)), /`scales\[17\]` must be from 0 to 1000/);
   assert.throws(() => cloth.setMap("tear", [1, 1]), /`scales` must have 48 entries, one per particle, but has 2/);
   cloth.reset();

@@ -145,6 +145,7 @@ cloth.setAnchors([4], [0, 0, 0], [0, 0, 1]);
 cloth.setMassScales([4], [2]);
 cloth.setMap("tear", new Float32Array(1600));
 cloth.setMap("bend", null);
+const painted: Float32Array | null = cloth.map("tear");
 cloth.setFrame([0, 0, 0]);
 cloth.teleport([1, 0, 0], [0, 0, 0, 1]);
 cloth.moveFrame([1, 0, 0]);
@@ -182,6 +183,7 @@ const tore: boolean = cloth.tearEdge(820, 860);
 
 const floor: ColliderDesc = { shape: "plane", position: [0, -2, 0], friction: 0.5 };
 const collider: Collider = cloth.addCollider(floor);
+const layer: Collider = cloth.collideWith(Cloth.grid());
 const pushed: readonly number[] = collider.impulse.linear;
 cloth.addCollider({ shape: "mesh", positions: new Float32Array(9), indices: [0, 1, 2], thickness: 0.01 });
 collider.moveTo([0, -1, 0]);

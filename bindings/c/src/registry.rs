@@ -158,6 +158,31 @@ pub fn with_cloth(cloth: MuslinCloth, call: impl FnOnce(&mut Cloth) -> Result) -
     })
 }
 
+/// Runs `call` with exclusive access to a cloth and to another one, the argument `other`. A panic makes
+/// both unusable.
+pub fn with_two_cloths(
+    cloth: MuslinCloth,
+    other: MuslinCloth,
+    call: impl FnOnce(&mut Cloth, &Cloth) -> Result,
+) -> MuslinStatus {
+    run_guarded(|| {
+        let shared = find_cloth(cloth)?;
+        let named = |error: CallError| CallError {
+            message: error.message.replace("`cloth`", "`other`"),
+            ..error
+        };
+        let shared_other = find_cloth(other).map_err(named)?;
+        if Arc::ptr_eq(&shared, &shared_other) {
+            return Err(CallError::bad_value("other", "be another cloth"));
+        }
+        let mut entry = try_lock(&shared)?;
+        let entry = entry.as_mut().ok_or_else(CallError::bad_cloth)?;
+        let other = try_lock(&shared_other).map_err(named)?;
+        let other = other.as_ref().ok_or_else(|| named(CallError::bad_cloth()))?;
+        call(&mut entry.cloth, &other.cloth)
+    })
+}
+
 /// The part of `with_cloth` that is compiled once, not once per caller.
 fn with_cloth_dyn(cloth: MuslinCloth, call: &mut dyn FnMut(&mut Cloth) -> Result) -> Result {
     let shared = find_cloth(cloth)?;
@@ -226,6 +251,28 @@ mod tests {
         assert_eq!(status, MuslinStatus::Ok);
         assert_eq!(destroy(cloth), MuslinStatus::Ok);
         assert_eq!(destroy(cloth), MuslinStatus::BadHandle);
+    }
+
+    #[test]
+    fn calls_on_two_cloths_need_both_and_name_the_other() {
+        let (cloth, other) = (small_cloth(), small_cloth());
+        let both = |cloth, other| with_two_cloths(cloth, other, |_, _| Ok(()));
+        assert_eq!(both(cloth, other), MuslinStatus::Ok);
+        assert_eq!(both(cloth, cloth), MuslinStatus::BadValue);
+        let status = with_cloth(other, |_| {
+            assert_eq!(both(cloth, other), MuslinStatus::Busy);
+            assert_eq!(both(other, cloth), MuslinStatus::Busy);
+            Ok(())
+        });
+        assert_eq!(status, MuslinStatus::Ok);
+        assert_eq!(
+            with_two_cloths(cloth, other, |_, _| panic!("on purpose")),
+            MuslinStatus::Panicked
+        );
+        assert_eq!(both(cloth, other), MuslinStatus::Panicked);
+        assert_eq!(destroy(other), MuslinStatus::Ok);
+        assert_eq!(both(cloth, other), MuslinStatus::BadHandle);
+        assert_eq!(destroy(cloth), MuslinStatus::Ok);
     }
 
     #[test]

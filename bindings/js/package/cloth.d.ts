@@ -375,6 +375,13 @@ export class Cloth {
     map: MapName,
     scales: Float32Array | Float64Array | readonly number[] | null,
   ): void;
+  /**
+   * Returns the scales of a painted map, one per particle, in an array of its own; `null` if it is not
+   * set. Particles that tears and cuts added are at the end.
+   *
+   * @throws if `map` is not a name of a map
+   */
+  map(map: MapName): Float32Array | null;
 
   // Pins
 
@@ -654,6 +661,37 @@ export class Cloth {
    * ```
    */
   addCollider(collider?: ColliderDesc): Collider;
+  /**
+   * Makes the surface of another cloth a collider of this one, and updates it from then on: clothes in
+   * layers, the inner one first. Call it in each frame between the `advance` of the inner cloth,
+   * `other`, and that of the outer one. It returns the same collider each time.
+   *
+   * The collider is at the present positions of `other` at first. After each later call it reaches them
+   * evenly over the ticks of the next `advance`, or in the next tick of `step`, and is swept on its way.
+   * It has two sides: this cloth stays on the side where it is. It keeps the mean of both thicknesses
+   * away, half of each, and has the mean of both coefficients of friction, as in the call; maps of
+   * `other` do not count. Where `other` has torn or been cut since, the collider takes its new
+   * triangles, which takes as long as adding it.
+   *
+   * The effect is one-way: `other` does not feel this cloth. Several pieces in one mesh, with
+   * `selfCollision: true`, bear on each other, and nothing passes through; a layer gives no such
+   * guarantee where both cloths crumple or are squeezed.
+   *
+   * The motion since the last call is swept. After a `reset` or `teleport` of both cloths, `remove()`
+   * the collider: the next call adds another one. A save contains the collider, but a restored cloth
+   * does not know whose it is, so remove it before you save and call this again after both.
+   *
+   * @throws if `other` is this cloth or was freed, if none of its triangles has an area or a particle is
+   * 1e6 m or more from its origin, or if there are 1024 colliders already
+   *
+   * @example
+   * ```js
+   * shirt.advance(seconds);
+   * coat.collideWith(shirt);
+   * coat.advance(seconds);
+   * ```
+   */
+  collideWith(other: Cloth): Collider;
 
   // Events, statistics, saved states
 

@@ -18,7 +18,8 @@ import { isTrap, requireMemory, viewOf } from "./memory.js";
 import { setState, stateOf } from "./state.js";
 import { countCloth, discountCloth } from "./usage.js";
 import * as fields from "./fields.js";
-import { Attachment, Collider, CONSTRUCTOR_KEY, Grab, checkConstructorKey, packPose } from "./handles.js";
+import { Attachment, Collider, CONSTRUCTOR_KEY, Grab, checkConstructorKey, packPose, packRay } from "./handles.js";
+import { collideWith } from "./layers.js";
 import {
   readBytes,
   readChanges,
@@ -35,9 +36,6 @@ const GRID_KEYS = [...Object.keys(fields.GRID), "material", "settings"];
 const MESH_LISTS = ["positions", "indices", "uvs", "pinned"];
 const COLLIDER_KEYS = [...Object.keys(fields.COLLIDER), "positions", "indices", "heights"];
 const MESH_KEYS = [...MESH_LISTS, ...Object.keys(fields.MESH), "material", "settings"];
-
-/** The painted maps, in the order of their numbers. */
-const MAPS = ["stretch", "bend", "tear", "friction", "thickness", "drag"];
 
 /** No rotation. */
 const IDENTITY = [0, 0, 0, 1];
@@ -356,8 +354,12 @@ export class Cloth {
 
   setMap(map, scales) {
     const live = rawOf(this);
-    const number = toChoiceIndex(map, "map", MAPS);
+    const number = toChoiceIndex(map, "map", fields.MAPS);
     live.set_map(number, scales === null ? undefined : toFloat32Array(scales, "scales", 1));
+  }
+
+  map(map) {
+    return rawOf(this).map(toChoiceIndex(map, "map", fields.MAPS)) ?? null;
   }
 
   // Attachments, anchors, frame
@@ -462,6 +464,11 @@ export class Cloth {
     return new Collider(CONSTRUCTOR_KEY, () => rawOf(this), handle, rotation);
   }
 
+  collideWith(other) {
+    const inner = other instanceof Cloth && stateOf(other, "Cloth");
+    return collideWith(stateOf(this, "Cloth"), () => rawOf(this), inner);
+  }
+
   // Events, statistics, saved states
 
   events() {
@@ -480,11 +487,6 @@ export class Cloth {
   save() {
     return rawOf(this).save();
   }
-}
-
-/** Returns origin and direction as a flat list. */
-function packRay(origin, direction) {
-  return Float64Array.of(...toVector(origin, "origin"), ...toVector(direction, "direction"));
 }
 
 // In engines with `using`.

@@ -26,6 +26,9 @@ const CHOICE = (...names) => ({
 
 export const PRESETS = ["silk", "cotton", "denim", "leather", "paper", "flag-nylon"];
 
+/** The painted maps, in the order of their numbers. */
+export const MAPS = ["stretch", "bend", "tear", "friction", "thickness", "drag"];
+
 export const SETTINGS = {
   tick: NUMBER,
   substeps: UINT32,

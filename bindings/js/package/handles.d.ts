@@ -68,7 +68,8 @@ export interface Pose {
 }
 
 /**
- * A collider of a cloth, made by `cloth.addCollider()`. It survives `cloth.reset()`.
+ * A collider of a cloth, made by `cloth.addCollider()` or `cloth.collideWith()`. It survives
+ * `cloth.reset()`.
  *
  * Its members throw after `remove()`, and after the cloth was freed.
  */

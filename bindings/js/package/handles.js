@@ -18,6 +18,11 @@ export function packPose(position, rotation) {
   return Float64Array.of(...toVector(position, "position"), ...quaternion);
 }
 
+/** Returns origin and direction as a flat list. */
+export function packRay(origin, direction) {
+  return Float64Array.of(...toVector(origin, "origin"), ...toVector(direction, "direction"));
+}
+
 /** Returns the rotation of a pose that `packPose` made. */
 function rotationOf(pose) {
   return Array.from(pose.subarray(3));
@@ -79,7 +84,7 @@ export class Attachment {
 
 export class Collider {
   constructor(key, live, handle, rotation) {
-    checkConstructorKey(key, "a collider is made by cloth.addCollider()");
+    checkConstructorKey(key, "a collider is made by cloth.addCollider() or cloth.collideWith()");
     setState(this, { live, handle, rotation });
   }
 
@@ -116,7 +121,8 @@ export class Collider {
   }
 
   remove() {
-    const { live, handle } = liveStateOf(this, "Collider");
+    const { state, live, handle } = liveStateOf(this, "Collider");
     live.remove_collider(handle);
+    state.handle = 0;
   }
 }

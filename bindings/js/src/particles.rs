@@ -82,6 +82,11 @@ impl RawCloth {
         self.cloth.set_map(Map::ALL[map], scales.as_deref()).map_err(to_js_error)
     }
 
+    /// Returns a painted map by its number; undefined if it is not set.
+    pub fn map(&self, map: usize) -> Option<Vec<f32>> {
+        self.cloth.map(Map::ALL[map]).map(<[f32]>::to_vec)
+    }
+
     fn bad_particle(&self, particle: u32) -> Error {
         Error::BadIndex { field: "particle", index: particle, count: self.cloth.particle_count() }
     }

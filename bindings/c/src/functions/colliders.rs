@@ -1,8 +1,8 @@
 //! Colliders: add, move, remove, and read the impulse.
 
-use crate::ffi::pointers::{Out, read_vec3s};
+use crate::ffi::pointers::{Out, read_optional, read_vec3s};
 use crate::ffi::versioned_struct::read_struct;
-use crate::registry::with_cloth;
+use crate::registry::{with_cloth, with_two_cloths};
 use crate::status::MuslinStatus;
 use crate::types::collider::MuslinColliderDesc;
 use crate::types::value::{MuslinCloth, MuslinCollider, MuslinQuat, MuslinVec3};
@@ -76,6 +76,45 @@ pub unsafe extern "C" fn muslin_cloth_update_collider(
         // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let positions = unsafe { read_vec3s("positions", positions.cast(), stride, count)? };
         Ok(cloth.update_collider(collider, &positions)?)
+    })
+}
+
+/// Makes the surface of another cloth a collider of this one, or updates it: clothes in layers, the
+/// inner one first.
+///
+/// Call it in each frame between the muslin_cloth_advance of the inner cloth, `other`, and that of the
+/// outer one. `inout_collider` starts as {0}: then the collider is added, where `other` is now, and its
+/// handle written. With the handle of an earlier call, the collider reaches the present positions of
+/// `other` evenly over the ticks of the next muslin_cloth_advance, or in the next tick of
+/// muslin_cloth_step, and is swept on its way. It has two sides: this cloth stays on the side where it
+/// is. It keeps the mean of both thicknesses away, half of each, and has the mean of both coefficients
+/// of friction, as in the call; maps of `other` do not count. Where `other` has torn or been cut
+/// since, the collider takes its new triangles, which takes as long as adding it; the handle stays.
+///
+/// The effect is one-way: `other` does not feel this cloth. Several pieces in one mesh, with
+/// MUSLIN_SELF_COLLISION_SURFACE, bear on each other, and nothing passes through; a layer gives no
+/// such guarantee where both cloths crumple or are squeezed. The motion since the last call is swept:
+/// after a reset or teleport of both cloths, remove the collider and start with {0} again. A save
+/// contains the collider, and the handle is valid for the restored cloth too.
+///
+/// @return MUSLIN_STATUS_BAD_HANDLE if a cloth is not live, or the collider was removed;
+/// MUSLIN_STATUS_BAD_VALUE if `other` is the cloth itself, the collider is no mesh, no triangle of
+/// `other` has an area, or a particle of it is 1e6 m or more from its origin; MUSLIN_STATUS_FULL if
+/// there are 1024 colliders already; MUSLIN_STATUS_BUSY if either cloth is in use on another thread
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_collide_with(
+    cloth: MuslinCloth,
+    other: MuslinCloth,
+    inout_collider: *mut MuslinCollider,
+) -> MuslinStatus {
+    with_two_cloths(cloth, other, |cloth, other| {
+        // SAFETY: by the header's rules, the pointer is NULL or valid for the call.
+        let (out, known) =
+            unsafe { (Out::new("inout_collider", inout_collider)?, read_optional(inout_collider)) };
+        let known = known.filter(|known| known.id != 0);
+        let known = known.map(|known| Collider::from_bits(known.id));
+        out.write(MuslinCollider { id: cloth.collide_with(other, known)?.to_bits() });
+        Ok(())
     })
 }
 

@@ -1,6 +1,6 @@
 //! Mass scales, painted maps, positions and velocities of particles.
 
-use crate::ffi::pointers::{OutVec3s, check, read_f32s, read_u32s, read_vec3s};
+use crate::ffi::pointers::{Out, OutVec3s, check, read_f32s, read_u32s, read_vec3s};
 use crate::registry::with_cloth;
 use crate::status::{CallError, MuslinStatus, Result};
 use crate::types::material::map as map_of;
@@ -60,14 +60,43 @@ pub unsafe extern "C" fn muslin_cloth_set_map(
         if scales.is_null() {
             return Ok(cloth.set_map(map, None)?);
         }
-        let particles = cloth.particle_count();
-        if count != particles {
-            let must = format!("be {particles}, the number of particles, but is {count}");
-            return Err(CallError::bad_value("count", must));
-        }
+        check_is_count(cloth, count)?;
         // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
         let scales = unsafe { read_f32s("scales", scales, count)? };
         Ok(cloth.set_map(map, Some(&scales))?)
+    })
+}
+
+/// Reads a painted map: one scale per particle, also of those that tears and cuts added; 1 for all if
+/// the map is not set.
+///
+/// `map` is a MUSLIN_MAP_ value. `out_scales` (may be NULL) receives `count` scales, `out_is_set` (may
+/// be NULL) 1 if the map is set, else 0.
+///
+/// @return MUSLIN_STATUS_BAD_VALUE for any other `map`, or if `count` is not the number of particles;
+/// without `out_scales`, `count` is ignored
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_get_map(
+    cloth: MuslinCloth,
+    map: u32,
+    out_scales: *mut f32,
+    count: u32,
+    out_is_set: *mut u32,
+) -> MuslinStatus {
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+    let out_is_set = unsafe { Out::new_optional(out_is_set) };
+    with_cloth(cloth, |cloth| {
+        let scales = cloth.map(map_of(map)?);
+        if !out_scales.is_null() {
+            check_is_count(cloth, count)?;
+            for i in 0..count as usize {
+                let scale = scales.map_or(1.0, |scales| scales[i]);
+                // SAFETY: by the header's rules, there are `count` writable numbers.
+                unsafe { out_scales.add(i).write_unaligned(scale) };
+            }
+        }
+        out_is_set.into_iter().for_each(|out| out.write(u32::from(scales.is_some())));
+        Ok(())
     })
 }
 
@@ -198,6 +227,16 @@ pub unsafe extern "C" fn muslin_cloth_get_rest_positions(
         out.write(cloth.rest_positions().skip(first as usize));
         Ok(())
     })
+}
+
+/// Refuses a count other than the number of particles.
+fn check_is_count(cloth: &Cloth, count: u32) -> Result {
+    let particles = cloth.particle_count();
+    if count == particles {
+        return Ok(());
+    }
+    let must = format!("be {particles}, the number of particles, but is {count}");
+    Err(CallError::bad_value("count", must))
 }
 
 /// Refuses a range of particles that is not part of the cloth.

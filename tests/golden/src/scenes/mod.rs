@@ -10,8 +10,10 @@ mod floor;
 mod folds;
 mod garment;
 mod mesh;
+mod painted_maps;
 mod particle_collision;
 mod pins_and_grabs;
+mod sewing_and_pressure;
 mod surface_collision;
 mod tears;
 mod time_and_saves;
@@ -52,6 +54,10 @@ pub const SCENES: &[Scene] = &[
     Scene { name: "saved-and-reset", play: time_and_saves::saved_and_reset },
     Scene { name: "changed-in-flight", play: time_and_saves::changed_in_flight },
     Scene { name: "fading-to-nothing", play: time_and_saves::fading_to_nothing },
+    Scene { name: "panels-sewn-on-a-body", play: sewing_and_pressure::panels_sewn_on_a_body },
+    Scene { name: "balloon", play: sewing_and_pressure::balloon },
+    Scene { name: "cushion", play: sewing_and_pressure::cushion },
+    Scene { name: "coat-with-painted-maps", play: painted_maps::coat_with_painted_maps },
 ];
 
 /// The position after `i` steps from `start`.
