@@ -11,10 +11,10 @@ const read = (name) => readFile(new URL(name, home));
 const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** The largest size of each file with gzip [B]. */
-const MAX_SIZES = { "raw_bg.wasm": 443_900, "plain_bg.wasm": 407_700, "code.js": 514_200 };
+const MAX_SIZES = { "raw_bg.wasm": 470_200, "plain_bg.wasm": 434_200, "code.js": 549_500 };
 
 /** The largest size of all scripts that every page loads, with gzip [B]. */
-const MAX_SCRIPT_SIZE = 14_650;
+const MAX_SCRIPT_SIZE = 15_150;
 
 /** Scripts that only some pages load. */
 const OPTIONAL = /^(bytes|inline|no-wasm|heap|code|three|three-with|pointers|react)\.js$/;
