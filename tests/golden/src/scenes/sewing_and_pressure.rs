@@ -72,7 +72,7 @@ pub fn panels_sewn_on_a_body(trace: &mut Trace) -> Result<()> {
     for i in 1..=30 {
         let to = along(Vec3::ZERO, Vec3::new(0.015625, 0.0, 0.0078125), i);
         // Nearly of unit length; the cloth normalises it.
-        let w = 1.0 - (i * i) as f32 * 0.000030517578125;
+        let w = 1.0 - (i * i) as f32 / 32768.0;
         let turn = Quat::from_xyzw(0.0, i as f32 * 0.0078125, 0.0, w);
         cloth.move_collider(trunk, to, turn)?;
         cloth.move_collider(shoulders, to + place, across)?;
@@ -168,7 +168,8 @@ pub fn cushion(trace: &mut Trace) -> Result<()> {
         radius: 0.375,
         ..ColliderDesc::default()
     })?;
-    let is_border = |i: &u32| i / count % (count - 1) == 0 || i % count % (count - 1) == 0;
+    let is_border =
+        |i: &u32| (i / count).is_multiple_of(count - 1) || (i % count).is_multiple_of(count - 1);
     let border: Vec<[u32; 2]> =
         (0..count * count).filter(is_border).map(|i| [i, below + i]).collect();
     cloth.sew(&border, &SewDesc { speed: 0.5, ..SewDesc::default() })?;
