@@ -1,5 +1,6 @@
 //! Tests of the effect of pointers, gestures and time on the receipt.
 
+#[allow(dead_code)]
 #[path = "../../../tests/common/crossings.rs"]
 mod crossings;
 

@@ -1,5 +1,6 @@
 //! Tests of crumpling: the sheet becomes a ball that comes to rest and does not intersect itself.
 
+#[allow(dead_code)]
 #[path = "../../../../tests/common/crossings.rs"]
 mod crossings;
 
