@@ -8,8 +8,10 @@ use std::time::Duration;
 use crate::failure::{Failure, Result};
 
 /// The content security policy: a page may run its own scripts and wasm, use inline styles and
-/// inline pictures.
-const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; \
+/// inline pictures. The hash is that of the import map of the example `figure`, which cannot be a
+/// file of its own.
+const POLICY: &str = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval' \
+    'sha256-63HB+x6cOSoyjjoUNwGyHweuS+XXQ8XSHH9W7emvUp8='; \
     style-src 'self' 'unsafe-inline'; img-src 'self' data:; connect-src 'self'";
 
 /// How long the server waits for a request.
