@@ -85,7 +85,11 @@ impl Cloth {
         self.check_collider_vertices(collider, positions.len())?;
         check_coordinates(positions.len(), &|i| positions[i], "positions")?;
         let body = self.world.colliders.get_mut(collider.0, "collider")?;
+        let is_first = body.deformation().is_none();
         with_float_env(|| body.update(&|i| positions[i]));
+        if is_first {
+            self.world.reserve_contacts();
+        }
         Ok(())
     }
 

@@ -38,12 +38,12 @@ const NEAR: f32 = 2.0;
 /// The fraction of the margin at which a rebuild is due; the rest covers rounding.
 const REBUILD_AT: f32 = 0.95;
 
-/// A partial search counts as cheaper if no more than one in this many particles has moved.
+/// A search is partial if at most one in this many particles left its predicted motion.
 const FEW: usize = 4;
 
-/// Edges longer than this share of the longest free edge are listed: links may stretch them beyond it
-/// within a substep.
-const NEARLY: f32 = 0.95;
+/// Triangles whose edges are longer than this share of the longest free edge are listed as long: links
+/// may stretch them beyond it within a substep.
+const LISTED_LENGTH: f32 = 0.95;
 
 /// Updates the swept bounds of all colliders at the start of a tick.
 pub(super) fn update_swept_bounds(world: &mut World) {
@@ -121,7 +121,7 @@ fn refresh_long_triangles(world: &mut World) {
     let entries = contacts.nearby.entries.iter();
     let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
     let limit = near.fold(f32::INFINITY, |least, entry| min(entry.longest_free_edge, least));
-    contacts.long.refresh(limit * NEARLY, x, &world.mesh.triangles, world.level);
+    contacts.long.refresh(limit * LISTED_LENGTH, x, &world.mesh.triangles, world.level);
 }
 
 /// Returns whether a particle is farther than `limit` [m] from where the last rebuild predicted it at
@@ -144,14 +144,15 @@ fn has_particle_moved(world: &mut World, limit: f32, moment: f32) -> bool {
 }
 
 /// Returns how near features of a collider must be to be candidates [m].
-fn search_distance(body: &ColliderBody, entry: &ColliderEntry, world_gap: f32, margin: f32) -> f32 {
+fn search_distance(body: &ColliderBody, entry: &ColliderEntry, gap: f32, margin: f32) -> f32 {
     let arc = body.collision_shape().map_or(0.0, |shape| body.max_arc_deviation(shape));
-    margin + world_gap + entry.sagitta_margin + arc
+    margin + gap + entry.sagitta_margin + arc
 }
 
-/// Predicts the particles that left their predicted motion anew, from the end of a part of the tick on, and
-/// lists them. Returns whether pairs can be searched for these alone: they are few, and all colliders
-/// with flat faces near the cloth deform, where the first search of the tick measured them.
+/// Lists the particles that left their predicted motion, and predicts their motion again, from the
+/// end of a part of the tick on. Returns whether a search for these particles alone is enough: they
+/// are few, every collider with flat faces near the cloth deforms, and the first search of the tick
+/// has measured its edges near these particles.
 fn predict_moved(world: &mut World, margin: f32, [moment, length]: [f32; 2]) -> bool {
     let tick = world.settings.tick;
     let limit = margin * REBUILD_AT;
@@ -252,7 +253,7 @@ fn rebuild(world: &mut World, margin: f32, [moment, length]: [f32; 2], is_partia
         for i in particles {
             motions.path(i).iter().for_each(|x| bounds.include(*x));
             if is_partial {
-                // The others may move on around where they were predicted.
+                // Particles that are not searched for stay near their earlier prediction.
                 let predicted = positions.get(i) + motions.displacements[i] * since;
                 bounds.include(predicted);
                 bounds.include(predicted + motions.forward(i));
@@ -266,7 +267,9 @@ fn rebuild(world: &mut World, margin: f32, [moment, length]: [f32; 2], is_partia
     );
     nearby.triangle_bounds.clear();
     nearby.blocks.clear();
-    core::mem::swap(&mut nearby.candidates, &mut nearby.earlier);
+    if is_partial {
+        core::mem::swap(&mut nearby.candidates, &mut nearby.earlier);
+    }
     nearby.candidates.clear();
     nearby.longest_edge = 0.0;
     for (entry, body) in nearby.entries.iter_mut().zip(world.colliders.iter_mut()) {
@@ -291,7 +294,7 @@ fn rebuild(world: &mut World, margin: f32, [moment, length]: [f32; 2], is_partia
             nearby.longest_edge = longest_edge(triangles, |i| x.get(i)) + 2.0 * margin;
         }
         if has_features {
-            // A partial search keeps particles a margin from where they were predicted.
+            // Particles that a partial search leaves out may be a margin from their prediction.
             let more = if is_partial && !had_pairs { margin } else { 0.0 };
             let distance = search_distance(body, entry, gap, margin + more);
             let search = PairSearch { distance, smooth: entry.smooth };

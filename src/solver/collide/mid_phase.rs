@@ -176,9 +176,15 @@ impl ColliderPairs {
         self.face_starts.reserve_total(bodies * (particles + 1));
         self.faces.reserve_total(8 * few * particles);
         self.block_features.reserve_total(triangles);
-        self.pair_starts.reserve_total(bodies * (triangles + 1));
         self.terrain_features.reserve(triangles);
         self.motion_bounds.reserve_total(particles);
+    }
+
+    /// Allocates likewise what only colliders that deform need.
+    pub fn reserve_for_deforming(&mut self, bodies: usize, triangles: usize) {
+        self.given.reserve_total(triangles);
+        self.given_groups.reserve_total(triangles.div_ceil(GROUP));
+        self.pair_starts.reserve_total(bodies * (triangles + 1));
     }
 
     pub fn clear(&mut self) {
@@ -190,7 +196,7 @@ impl ColliderPairs {
         self.pair_starts.clear();
     }
 
-    /// Sets the features that a search tests, of which some may be smooth.
+    /// Sets the features that a search tests: those of `given` that are sharp.
     fn set_given(
         &mut self,
         own: &ShapeFeatures,
@@ -240,19 +246,18 @@ impl ColliderPairs {
     }
 
     /// Pushes the candidate pairs of a collider that deforms and returns their range, as
-    /// [`ColliderPairs::push_pairs`] does. With `earlier` only some particles are searched for, and
-    /// the pairs of the others are taken from there.
+    /// [`ColliderPairs::push_pairs`] does. It takes the motion bounds. With `earlier` it searches only
+    /// for some particles, and copies the pairs of the others from there.
     pub(super) fn push_pairs_of_deforming(
         &mut self,
         (shape, sharp): (&CollisionShape, impl Iterator<Item = u32>),
         mesh: &Mesh,
-        motion_bounds: &[MotionBound],
+        motion_bounds: &mut Vec<MotionBound>,
         search: PairSearch,
         earlier: Option<Earlier<'_>>,
     ) -> CandidateRange {
         let Some(own) = features_of(shape) else { return CandidateRange::default() };
-        self.motion_bounds.clear();
-        self.motion_bounds.extend_from_slice(motion_bounds);
+        core::mem::swap(&mut self.motion_bounds, motion_bounds);
         self.set_given(own, sharp, &search);
         let range = self.begin_range();
         self.push_faces(shape, search.distance, earlier);

@@ -91,6 +91,10 @@ impl World {
         let (bodies, particles) = (self.colliders.iter().count(), self.capacity());
         if bodies > 0 {
             self.scratch.contacts.reserve(bodies, particles, self.triangle_capacity);
+            if self.colliders.iter().any(|body| body.deformation().is_some()) {
+                let nearby = &mut self.scratch.contacts.nearby;
+                nearby.reserve_for_deforming(bodies, particles, self.triangle_capacity);
+            }
         }
     }
 }

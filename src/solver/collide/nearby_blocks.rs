@@ -49,7 +49,7 @@ pub(crate) struct NearbyBlocks {
     /// Whether the next refresh must rebuild.
     pub(super) is_stale: bool,
     pub(super) candidates: ColliderPairs,
-    /// Scratch: the candidates before the last rebuild.
+    /// Scratch: the candidates before the last partial rebuild.
     pub(super) earlier: ColliderPairs,
     /// Scratch: the particles that left their predicted motion, and those with the other corners of
     /// their triangles.
@@ -119,11 +119,17 @@ impl NearbyBlocks {
         self.particle_bounds.reserve_total(particle_blocks);
         self.triangle_bounds.reserve_total(triangle_blocks);
         self.candidates.reserve(bodies, particles, triangles);
+        self.is_stale = true;
+    }
+
+    /// Allocates likewise what only colliders that deform need.
+    pub fn reserve_for_deforming(&mut self, bodies: usize, particles: usize, triangles: usize) {
         self.earlier.reserve(bodies, particles, triangles);
+        self.earlier.reserve_for_deforming(bodies, triangles);
+        self.candidates.reserve_for_deforming(bodies, triangles);
         self.moved.reserve_total(particles);
         self.searched.reserve_total(particles);
         self.motion_bounds.reserve_total(particles);
-        self.is_stale = true;
     }
 
     /// Makes the next refresh rebuild everything: for colliders that were added, removed or

@@ -15,7 +15,7 @@ pub fn scenes() -> Vec<Scene> {
         Scene::new("skirt-walk", 240, || skirt(25.0, 1.0, false)),
         Scene::new("skirt-walk-surface", 240, || skirt(25.0, 1.0, true)).short(60),
         Scene::new("skirt-kick", 120, || skirt(44.0, 2.5, false)),
-        Scene::new("skirt-walk-skinned", 120, || skinned_skirt(25.0, 1.0, false)),
+        Scene::new("skirt-walk-skinned", 120, || skinned_skirt(25.0, 1.0, false)).short(70),
         Scene::new("skirt-walk-skinned-surface", 120, || skinned_skirt(25.0, 1.0, true)).short(20),
         Scene::new("skirt-kick-skinned", 120, || skinned_skirt(44.0, 2.5, false)),
         Scene::new("shirt-on-torso", 180, shirt),
