@@ -235,20 +235,17 @@ impl MovingSurface {
 
     /// Returns whether the first search of this tick measured all of `bounds`.
     pub fn is_measured(&self, bounds: &Aabb) -> bool {
-        self.is_settled || self.measured.is_some_and(|measured| measured.contains(bounds))
+        self.measured.is_some_and(|measured| measured.contains(bounds))
     }
 
-    /// Poses the triangles near some boxes, which are measured, and all sharp features near the cloth
-    /// for a search for pairs at `moment` of the tick.
+    /// Poses the triangles near some boxes, which are measured, and all sharp features near the cloth,
+    /// for a search for pairs at `moment` of a tick in which the surface moves.
     pub fn pose_some_for_search(
         &mut self,
         vertices: MovingVertices<'_>,
         boxes: impl Iterator<Item = Aabb>,
         moment: f32,
     ) {
-        if self.is_settled {
-            return;
-        }
         let (mut some, near) = (core::mem::take(&mut self.some), core::mem::take(&mut self.near));
         some.clear();
         if let CollisionShape::TriangleSurface(surface, _) = &self.shape {
@@ -262,12 +259,11 @@ impl MovingSurface {
         (self.some, self.near, self.posed) = (some, near, None);
     }
 
-    /// Returns the ids of the sharp features near the cloth, among others; `None` if everything is
-    /// posed, at rest.
-    pub fn sharp_features(&self) -> Option<impl Iterator<Item = u32> + '_> {
+    /// Returns the ids of the sharp features near the cloth, and of edges that these need.
+    pub fn sharp_features(&self) -> impl Iterator<Item = u32> + '_ {
         let edge_count = self.sources.counts()[0];
         let vertices = self.near.vertices.list.iter().map(move |vertex| vertex + edge_count);
-        (!self.is_settled).then(|| self.near.edges.list.iter().copied().chain(vertices))
+        self.near.edges.list.iter().copied().chain(vertices)
     }
 
     /// Sets what can touch the cloth, as a search found it: triangles, edge features and vertex

@@ -174,7 +174,7 @@ impl Deformation {
 
     /// See [`MovingSurface::sharp_features`].
     pub fn sharp_features(&self) -> Option<impl Iterator<Item = u32> + '_> {
-        self.surface.as_ref().and_then(|surface| surface.sharp_features())
+        self.surface.as_ref().map(|surface| surface.sharp_features())
     }
 
     /// Lists what can touch the cloth, see [`MovingSurface::activate`].
