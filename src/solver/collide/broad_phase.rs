@@ -99,10 +99,8 @@ pub(crate) fn refresh(world: &mut World, part: [f32; 2]) {
     let has_topology_changed = nearby.positions_at_rebuild.x.len() != world.particles.len()
         || nearby.triangles_at_rebuild != world.mesh.triangles.len();
     let is_stale = nearby.is_stale || has_topology_changed;
-    if is_stale {
-        rebuild(world, margin, part, false);
-    } else if has_particle_moved(world, margin * REBUILD_AT, part[0]) {
-        let is_partial = predict_moved(world, margin, part);
+    if is_stale || has_particle_moved(world, margin * REBUILD_AT, part[0]) {
+        let is_partial = !is_stale && predict_moved(world, margin, part);
         rebuild(world, margin, part, is_partial);
     }
     refresh_long_triangles(world);
