@@ -133,22 +133,15 @@ pub(super) fn carry_along(
         return;
     };
     let (frame, translation) = (body.next.to_transform(), body.next.position - body.last.position);
-    let turned = |bounds: Aabb, axes: [Vec3; 3]| {
-        let half = bounds.half_extents();
-        let half = axes[0].abs() * half.x + axes[1].abs() * half.y + axes[2].abs() * half.z;
-        let center = bounds.center();
-        let center = axes[0] * center.x + axes[1] * center.y + axes[2] * center.z;
-        Aabb { low: center - half, high: center + half }
-    };
     for (block, displacements) in displacements.chunks_mut(CARRIED).enumerate() {
         let first = block * CARRIED;
         let local = |i: usize| frame.point_to_local(x.get(i));
         let bounds = Aabb::from_points((first..first + displacements.len()).map(local));
         let Some(motions) = deformation.motions_near(bounds.expanded(margin)) else { continue };
-        let motions = turned(motions, frame.axes);
         for displacement in displacements {
-            let own = *displacement - translation;
-            *displacement = own.max(motions.low).min(motions.high) + translation;
+            let own = frame.vector_to_local(*displacement - translation);
+            let limited = own.max(motions.low).min(motions.high);
+            *displacement = frame.vector_to_world(limited) + translation;
         }
     }
 }
