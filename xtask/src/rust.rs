@@ -43,8 +43,8 @@ pub fn lint() -> Result {
 }
 
 /// What looks like a link in a doc comment and is a unit.
-const UNITS: [&str; 12] =
-    ["m", "m²", "m³", "m⁴", "s", "rad", "kg", "N", "J", "bytes", "spacings", "gaps"];
+const UNITS: [&str; 13] =
+    ["m", "m²", "m³", "m⁴", "s", "rad", "kg", "N", "Pa", "J", "bytes", "spacings", "gaps"];
 
 /// Fails where the documentation of the library has a broken link or another defect.
 fn check_docs() -> Result {
@@ -64,7 +64,8 @@ fn check_docs() -> Result {
     if done.status.success() && defects.is_empty() {
         return Ok(());
     }
-    Err(Failure::new(format!("cargo doc reports: {}\n{text}", defects.join("; "))))
+    let shown = if done.status.success() { String::new() } else { format!("\n{text}") };
+    Err(Failure::new(format!("cargo doc reports: {}{shown}", defects.join("; "))))
 }
 
 /// Runs all tests and examples of all crates.
