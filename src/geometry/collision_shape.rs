@@ -67,6 +67,11 @@ impl CollisionShape {
         }
     }
 
+    /// Returns whether this is a surface whose vertices move.
+    pub fn deforms(&self) -> bool {
+        matches!(self, Self::TriangleSurface(surface, _) if surface.deforms())
+    }
+
     /// Returns how deep a point is inside [m]: 0 or less outside, beside a heightfield and for
     /// triangle surfaces, which have two sides.
     pub fn depth(&self, p: Vec3) -> f32 {

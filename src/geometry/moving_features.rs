@@ -92,21 +92,23 @@ impl FeatureSources {
     }
 
     /// Calls `visit` with every edge that has a bend for `is_sharp` and a first triangle for
-    /// `is_near`, with the vertices `at` their positions, and with both its ends as vertex features.
+    /// `is_near`, with the vertices at their positions at one of two moments, and with both its ends as vertex
+    /// features.
     pub fn visit_sharp_edges(
         &self,
-        at: &[Vec3],
+        moments: [&[Vec3]; 2],
         is_near: impl Fn(u32) -> bool,
         is_sharp: impl Fn(&SurfaceBend) -> bool,
         mut visit: impl FnMut(u32, [u32; 2]),
     ) {
         for (number, edge) in (0..).zip(&self.edges) {
-            if is_near(edge.triangle) {
+            let bends_at = |at: &[Vec3]| {
                 let place = |v: u32| at[v as usize];
                 let bend = bend_at_edge(edge.ends.map(place), edge.opposite.map(place));
-                if bend.is_some_and(|(_, _, bend)| is_sharp(&bend)) {
-                    visit(number, edge.ends.map(|v| self.vertex_feature(v)));
-                }
+                bend.is_some_and(|(_, _, bend)| is_sharp(&bend))
+            };
+            if is_near(edge.triangle) && moments.into_iter().any(bends_at) {
+                visit(number, edge.ends.map(|v| self.vertex_feature(v)));
             }
         }
     }

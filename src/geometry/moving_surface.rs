@@ -40,6 +40,8 @@ pub(crate) struct MovingSurface {
     /// What the first search of the tick found near the cloth: triangles, and sharp features with the
     /// edges that these need.
     near: ActiveParts,
+    /// The number of its edges, from the first one on, that are sharp.
+    sharp_edges: usize,
     /// Scratch: some parts near the cloth.
     some: ActiveParts,
     /// What can touch the cloth, of that.
@@ -159,6 +161,7 @@ impl MovingSurface {
             placed: [positions.to_vec(), positions.to_vec()],
             sources,
             near: ActiveParts::new(counts),
+            sharp_edges: 0,
             some: ActiveParts::new(counts),
             active: ActiveParts::new(counts),
             measured: None,
@@ -259,11 +262,11 @@ impl MovingSurface {
         (self.some, self.near, self.posed) = (some, near, None);
     }
 
-    /// Returns the ids of the sharp features near the cloth, and of edges that these need.
+    /// Returns the ids of the sharp features near the cloth.
     pub fn sharp_features(&self) -> impl Iterator<Item = u32> + '_ {
         let edge_count = self.sources.counts()[0];
         let vertices = self.near.vertices.list.iter().map(move |vertex| vertex + edge_count);
-        self.near.edges.list.iter().copied().chain(vertices)
+        self.near.edges.list[..self.sharp_edges].iter().copied().chain(vertices)
     }
 
     /// Sets what can touch the cloth, as a search found it: triangles, edge features and vertex
@@ -334,7 +337,7 @@ impl MovingSurface {
         let ActiveParts { triangles, edges, vertices: ends } = near;
         surface.overlapping(bounds).for_each(|triangle| triangles.insert(triangle));
         self.sources.visit_sharp_edges(
-            &self.placed[0],
+            [&self.placed[0], vertices.next],
             |triangle| triangles.is_listed[triangle as usize],
             is_sharp,
             |edge, both| {
@@ -342,6 +345,7 @@ impl MovingSurface {
                 both.iter().for_each(|end| ends.insert(*end));
             },
         );
+        self.sharp_edges = edges.list.len();
         for vertex in &ends.list {
             self.sources.incident(*vertex).iter().for_each(|[edge, _]| edges.insert(*edge));
         }
@@ -357,6 +361,7 @@ impl MovingSurface {
         let [edges, features] = self.sources.counts();
         (0..edges).for_each(|edge| self.near.edges.insert(edge));
         (0..features).for_each(|vertex| self.near.vertices.insert(vertex));
+        self.sharp_edges = edges as usize;
         let near = core::mem::take(&mut self.near);
         self.pose_parts(vertices, &near, [1.0, 0.0]);
         self.set_motions(vertices, &near);

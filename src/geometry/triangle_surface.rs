@@ -99,6 +99,11 @@ impl TriangleSurface {
             if before == now { self.triangles[at].clone() } else { SurfaceTriangle::new(before) };
     }
 
+    /// Returns whether the vertices move.
+    pub fn deforms(&self) -> bool {
+        !self.before.is_empty()
+    }
+
     /// Sets the motion of a triangle in the tick.
     pub fn set_motion(&mut self, triangle: u32, motion: PartMotion) {
         self.motions[triangle as usize] = motion;
@@ -248,7 +253,7 @@ impl CandidateTriangles<'_> {
     /// `None` if it crosses no candidate. Its normal is that on the side of `from`.
     #[inline(never)]
     pub fn first_crossing(&self, from: Vec3, to: Vec3) -> Option<SurfacePoint> {
-        let is_moving = !self.surface.before.is_empty();
+        let is_moving = self.surface.deforms();
         let mut first: Option<(f32, SurfacePoint)> = None;
         for (number, [triangle, before]) in self.triangles() {
             let above = (from - before.corners[0]).dot(before.normal);

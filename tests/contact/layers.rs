@@ -154,6 +154,50 @@ fn an_outer_sheet_falls_with_a_half_that_is_cut_off_the_inner_one() {
     assert!(lowest(&inner) < -0.5 && lowest(&outer) < -0.5, "{}", lowest(&outer));
 }
 
+/// A sheet that keeps from itself. Layers with folds that cross leave another one no way out.
+fn folding_sheet(nodes: u32, width: f32, height: f32) -> Cloth {
+    let mut desc = free_sheet(nodes, width, height);
+    desc.settings.self_collision = SelfCollision::Surface;
+    Cloth::grid(&desc).unwrap()
+}
+
+#[test]
+fn two_sheets_dropped_on_a_ball_lie_on_each_other() {
+    let ball = ColliderDesc { shape: Shape::Sphere, radius: 0.25, ..ColliderDesc::default() };
+    let mut inner = folding_sheet(24, 0.7, 0.27);
+    let mut outer = folding_sheet(20, 0.6, 0.29);
+    inner.add_collider(&ball).unwrap();
+    let mut layer = None;
+    for tick in 1..=180 {
+        step_layers(&mut inner, &mut outer, &mut layer);
+        assert_eq!(crossings_between(&inner, &outer), 0, "tick {tick}");
+    }
+    let nearest =
+        |x: &Vec3| inner.positions().iter().map(|y| x.distance(*y)).fold(f32::INFINITY, f32::min);
+    let farthest = outer.positions().iter().map(nearest).fold(0.0, f32::max);
+    assert!(farthest < 0.06, "a part of the outer sheet is {farthest} m away");
+    let top = |cloth: &Cloth| cloth.positions().iter().map(|x| x.y).fold(0.0, f32::max);
+    assert!(top(&outer) > top(&inner) && top(&inner) > 0.25);
+}
+
+#[test]
+fn two_skirts_on_a_leg_stay_in_order() {
+    let leg = Leg::new();
+    let mesh = |desc: MeshDesc| {
+        let settings = Settings { self_collision: SelfCollision::Surface, ..desc.settings };
+        Cloth::mesh(&MeshDesc { settings, ..desc }).unwrap()
+    };
+    let mut inner = mesh(skirt(0.17, [-0.35, 0.25], 0.15));
+    let mut outer = mesh(skirt(0.185, [-0.25, 0.2], 0.18));
+    let body = leg.add_to(&mut inner);
+    let mut layer = None;
+    for tick in 1..=180 {
+        inner.update_collider(body, &leg.at(tick)).unwrap();
+        step_layers(&mut inner, &mut outer, &mut layer);
+        assert_eq!(crossings_between(&inner, &outer), 0, "tick {tick}");
+    }
+}
+
 #[test]
 fn two_skirts_as_one_cloth_stay_in_order() {
     let leg = Leg::new();

@@ -9,7 +9,8 @@
 //! below the contact plane near the feature. Outside the cone another feature or a face is nearer.
 //! So every contact normal lies between the normals of the adjacent faces. If the cloth is deeper
 //! than the center of the shape, a contact counts only if the cloth passed through the feature in
-//! this substep.
+//! this substep. Beside two-sided surfaces cloth that passed through a feature goes back to its side
+//! whatever the normal: at a saddle or at a fold the cone of no feature need hold it.
 //!
 //! Reads local particles and candidate pairs; writes positions through [`PushAccumulator`].
 //! Invariant: a pair with a positive height at or above the gap is not moved.
@@ -34,6 +35,14 @@ const MIN_SINE2: f32 = 1.0e-4;
 
 /// Cloth is fast if it moves farther than this many gaps in a substep.
 const FAST_GAPS: f32 = 4.0;
+
+/// Cloth behind a two-sided feature whose corners were in front of its faces came through it, unless it
+/// was deeper than this share of the gap: then it rests on the other side of a shallow bend.
+const SHALLOW: f32 = 0.3;
+
+/// At a two-sided feature that bends by almost half a turn, the side that `outward` gives a normal with
+/// a smaller cosine than this to it is arbitrary.
+const FOLD_COSINE: f32 = 0.2;
 
 /// Pairs that are farther apart than this many gaps before the first round are not tested.
 pub(super) const CLOSE_GAPS: f32 = 4.0;
@@ -164,10 +173,11 @@ fn edge_contact(
     let [i, j] = pair.particles.map(|i| i as usize);
     let end = [particles.end_position(i), particles.end_position(j)];
     let start = [i, j].map(|i| start_position(particles, i, step));
-    let (normal, height) = edge_normal(edge, end)?;
     let gap = query.gap * particles.contact_scales.thickness(&[i, j]);
+    let passed = || edge_passage(edge, ([i, j], start, end), gap);
+    let Some((normal, height)) = edge_normal(edge, end) else { return passed() };
     if height >= gap {
-        return None;
+        return if normal.dot(edge.outward) < FOLD_COSINE { passed() } else { None };
     }
     let center_depth = query.shape.depth_of_center(edge.ends[0], normal);
     let most = min(center_depth, query.max_depth);
@@ -180,9 +190,9 @@ fn edge_contact(
             height: (start[0] - edge.ends[0]).dot(own),
             is_beside: is_fast && edge_crossing(edge, start, own).is_none(),
         });
-        let is_outside = |x: &Vec3| edge.is_outside(*x);
-        if edge.sides == FeatureSides::TwoSided && !was_outside(own, start.iter().map(is_outside)) {
-            return None;
+        let corners = start.iter().map(|x| edge.is_outside(*x));
+        if edge.sides == FeatureSides::TwoSided && !was_outside(own, gap, corners) {
+            return passed();
         }
         let start_height = corrected_start_height(start_height, gap, is_fast, own);
         if edge.sides == FeatureSides::Boundary && start_height <= 0.0 {
@@ -215,11 +225,13 @@ struct StartPlane {
     is_beside: bool,
 }
 
-/// Returns whether cloth started on the outer side of a two-sided feature, from its plane and from
-/// whether each of its corners was in front of a face of the feature. Corners of a long triangle may
-/// be behind them all, where the surface bends away.
-fn was_outside(own: Option<StartPlane>, mut corners: impl Iterator<Item = bool>) -> bool {
-    own.is_some_and(|own| own.height > 0.0) || corners.all(|is_outside| is_outside)
+/// Returns whether cloth started on the outer side of a two-sided feature, from its plane and, just
+/// behind it, from whether each of its corners was in front of a face of the feature. Corners of a long
+/// triangle may be behind them all, where the surface bends away, or in front of the faces on the inner
+/// side, where it bends back.
+fn was_outside(own: Option<StartPlane>, gap: f32, mut corners: impl Iterator<Item = bool>) -> bool {
+    let height = own.map_or(0.0, |own| own.height);
+    height > 0.0 || height >= -SHALLOW * gap && corners.all(|is_outside| is_outside)
 }
 
 /// Returns the height at which a point of the cloth started, given that height along the normal of
@@ -255,6 +267,47 @@ fn outward_normal(edge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<Vec3> {
     Some(if normal.dot(edge.outward) < 0.0 { -normal } else { normal })
 }
 
+/// Returns the contact of a cloth edge, from its particles and their positions at both ends of the
+/// substep, that passed through a two-sided edge feature in it, whatever the normal: it goes back to
+/// its side.
+#[inline(never)]
+fn edge_passage(
+    edge: &EdgeFeature,
+    ([i, j], start, end): ([usize; 2], [Vec3; 2], [Vec3; 2]),
+    gap: f32,
+) -> Option<([usize; 3], TriangleContact)> {
+    if edge.sides != FeatureSides::TwoSided {
+        return None;
+    }
+    let (first, last) = (outward_normal(edge, start)?, outward_normal(edge, end)?);
+    let first = if first.dot(last) < 0.0 { -first } else { first };
+    let height = |at: [Vec3; 2], normal: Vec3| (at[0] - edge.ends[0]).dot(normal);
+    let (before, now) = (height(start, first), height(end, last));
+    if before * now >= 0.0 {
+        return None;
+    }
+    let time = before / (before - now);
+    let crossing = [0, 1].map(|k| start[k] + (end[k] - start[k]) * time);
+    let fraction = edge_crossing(edge, crossing, last)?;
+    let penetration = Penetration::new(last * 1.0_f32.copysign(before), gap + now.abs());
+    Some(([i, j, i], TriangleContact { weights: [1.0 - fraction, fraction, 0.0], penetration }))
+}
+
+/// Returns the contact of a cloth triangle likewise, that a two-sided vertex feature passed through.
+#[inline(never)]
+fn vertex_passage(
+    vertex: &VertexFeature,
+    (corners, start, end): ([usize; 3], [Vec3; 3], [Vec3; 3]),
+    gap: f32,
+) -> Option<([usize; 3], TriangleContact)> {
+    if vertex.sides != FeatureSides::TwoSided {
+        return None;
+    }
+    let (weights, back, depth) = point_crossing(vertex.position, start, end)?;
+    let penetration = Penetration::new(back, gap + depth);
+    Some((corners, TriangleContact { weights, penetration }))
+}
+
 /// Returns where a cloth edge crosses an edge feature, seen along `normal`, as a fraction of the
 /// cloth edge; `None` if they do not cross.
 fn edge_crossing(edge: &EdgeFeature, [a, b]: [Vec3; 2], normal: Vec3) -> Option<f32> {
@@ -278,10 +331,13 @@ fn vertex_contact(
     let corners = pair.particles.map(|i| i as usize);
     let end = corners.map(|i| particles.end_position(i));
     let start = corners.map(|i| start_position(particles, i, step));
-    let (normal, height) = vertex_normal(features, vertex, end, start)?;
     let gap = query.gap * particles.contact_scales.thickness(&corners);
+    let passed = || vertex_passage(vertex, (corners, start, end), gap);
+    let Some((normal, height)) = vertex_normal(features, vertex, end, start) else {
+        return passed();
+    };
     if height >= gap {
-        return None;
+        return if normal.dot(vertex.outward) < FOLD_COSINE { passed() } else { None };
     }
     let center_depth = query.shape.depth_of_center(vertex.position, normal);
     let most = min(center_depth, query.max_depth);
@@ -297,10 +353,9 @@ fn vertex_contact(
             let is_beside = is_fast && projected_weights(start, vertex.position, own).is_none();
             StartPlane { height: p.dot(own), is_beside }
         });
-        let is_outside = |x: &Vec3| features.is_outside_vertex(vertex, *x);
-        if vertex.sides == FeatureSides::TwoSided && !was_outside(own, start.iter().map(is_outside))
-        {
-            return None;
+        let outside = start.iter().map(|x| features.is_outside_vertex(vertex, *x));
+        if vertex.sides == FeatureSides::TwoSided && !was_outside(own, gap, outside) {
+            return passed();
         }
         let start_height = corrected_start_height(start_height, gap, is_fast, own);
         let depenetration = particles.depenetration;

@@ -196,16 +196,10 @@ impl ColliderPairs {
         self.pair_starts.clear();
     }
 
-    /// Sets the features that a search tests: those of `given` that are sharp.
-    fn set_given(
-        &mut self,
-        own: &ShapeFeatures,
-        given: impl Iterator<Item = u32>,
-        search: &PairSearch,
-    ) {
-        let sharp = given.filter(|id| !search.is_smooth(&own.features.bend(*id)));
+    /// Sets the features that a search tests.
+    fn set_given(&mut self, own: &ShapeFeatures, given: impl Iterator<Item = u32>) {
         self.given.clear();
-        self.given.extend(sharp.map(|id| (id, own.features.bounds(id))));
+        self.given.extend(given.map(|id| (id, own.features.bounds(id))));
         let merged = |group: &[(u32, Aabb)]| {
             group.iter().fold(Aabb::EMPTY, |mut all, (_, bounds)| {
                 all.merge(bounds);
@@ -258,7 +252,7 @@ impl ColliderPairs {
     ) -> CandidateRange {
         let Some(own) = features_of(shape) else { return CandidateRange::default() };
         core::mem::swap(&mut self.motion_bounds, motion_bounds);
-        self.set_given(own, sharp, &search);
+        self.set_given(own, sharp);
         let range = self.begin_range();
         self.push_faces(shape, search.distance, earlier);
         for (number, block) in mesh.triangles.chunks(BLOCK).enumerate() {

@@ -45,6 +45,7 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::transform::Transform;
 use crate::math::max;
 use crate::math::wide4::{Float4, xyz};
+use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::contact_distance::{TRIANGLE_GAP, contact_gap};
 use crate::solver::collide::edge_vs_feature::FeatureQuery;
 use crate::solver::collide::local_particles::{
@@ -462,6 +463,15 @@ fn solve_rounds(
         }
     }
     pushes.set_rollback(None);
+    if shape.deforms() {
+        // What carries a corner along is the motion of features near it, not of the face below it.
+        let own = |contact: &ColliderContact| contact.body == particles.body;
+        let first = particles.contacts.iter().position(own).unwrap_or(particles.contacts.len());
+        for at in first..particles.contacts.len() {
+            let i = particles.contacts[at].particle as usize;
+            particle_vs_shape::solve_particle(shape, particles, &neighbours.candidates, i);
+        }
+    }
     pushed
 }
 
