@@ -247,8 +247,12 @@ fn corrected_start_height(height: f32, gap: f32, is_fast: bool, own: Option<Star
 }
 
 /// Returns the normal perpendicular to an edge feature and a cloth edge, and the height of the
-/// cloth edge along it [m]; `None` if the normal lies outside the normal cone of the feature.
+/// cloth edge along it [m]; `None` if the normal lies outside the normal cone of the feature, and
+/// where its faces lie in one plane now, so that it has none.
 fn edge_normal(edge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<(Vec3, f32)> {
+    if edge.bend.angle == 0.0 {
+        return None;
+    }
     let normal = outward_normal(edge, [a, b])?;
     let is_in_cone = edge.inward.iter().all(|inward| normal.dot(*inward) <= CONE_TOLERANCE);
     is_in_cone.then(|| (normal, (a - edge.ends[0]).dot(normal)))
@@ -373,7 +377,8 @@ fn vertex_contact(
 }
 
 /// Returns the outward normal of a cloth triangle at a vertex feature, and the height of the
-/// triangle along it [m]; `None` if the normal lies outside the normal cone of the feature.
+/// triangle along it [m]; `None` if the normal lies outside the normal cone of the feature, and where
+/// its faces lie in one plane now.
 fn vertex_normal(
     features: &Features,
     vertex: &VertexFeature,
@@ -382,7 +387,7 @@ fn vertex_normal(
 ) -> Option<(Vec3, f32)> {
     let normal = (b - a).cross(c - a);
     let length = normal.length();
-    if length <= TINY {
+    if length <= TINY || vertex.bend.angle == 0.0 {
         return None;
     }
     let normal = normal * (1.0 / length);
