@@ -44,6 +44,10 @@ const SHALLOW: f32 = 0.3;
 /// a smaller cosine than this to it is arbitrary.
 const FOLD_COSINE: f32 = 0.2;
 
+/// Cloth that passed through a feature goes back to this share of the gap. The whole gap at once would
+/// not let cloth come to rest.
+const PASSED_GAP: f32 = 0.2;
+
 /// Pairs that are farther apart than this many gaps before the first round are not tested.
 pub(super) const CLOSE_GAPS: f32 = 4.0;
 
@@ -293,7 +297,8 @@ fn edge_passage(
     let time = before / (before - now);
     let crossing = [0, 1].map(|k| start[k] + (end[k] - start[k]) * time);
     let fraction = edge_crossing(edge, crossing, last)?;
-    let penetration = Penetration::new(last * 1.0_f32.copysign(before), gap + now.abs());
+    let penetration =
+        Penetration::new(last * 1.0_f32.copysign(before), gap * PASSED_GAP + now.abs());
     Some(([i, j, i], TriangleContact { weights: [1.0 - fraction, fraction, 0.0], penetration }))
 }
 
@@ -308,7 +313,7 @@ fn vertex_passage(
         return None;
     }
     let (weights, back, depth) = point_crossing(vertex.position, start, end)?;
-    let penetration = Penetration::new(back, gap + depth);
+    let penetration = Penetration::new(back, gap * PASSED_GAP + depth);
     Some((corners, TriangleContact { weights, penetration }))
 }
 
