@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import muslin
-from conftest import plane
 from muslin import Cloth, Error, Settings, Status
+from shapes import plane
 
 SHEET = Settings(self_collision="surface")
 
@@ -32,8 +32,12 @@ def test_a_sheet_falls_on_every_shape() -> None:
     flat: list[dict[str, Any]] = [
         {"shape": "plane"},
         {"shape": "mesh", "positions": ground, "indices": triangles},
-        {"shape": "heightfield", "heights": np.zeros((5, 9)), "spacing": 0.5,
-         "position": (-2, 0, -1)},
+        {
+            "shape": "heightfield",
+            "heights": np.zeros((5, 9)),
+            "spacing": 0.5,
+            "position": (-2, 0, -1),
+        },
     ]
     for collider in flat:
         y = fallen(**collider)[:, 1]
@@ -237,5 +241,8 @@ def test_a_stitch_tears_under_its_force() -> None:
         cloth.move_grab(grab, (0, 0.02 + 0.02 * frame, 0))
         cloth.step()
     torn = [event for event in cloth.events() if isinstance(event, muslin.StitchTorn)]
-    assert torn and all([e.particle_a, e.particle_b] in pairs.tolist() or
-                        [e.particle_b, e.particle_a] in pairs.tolist() for e in torn)
+    assert torn and all(
+        [e.particle_a, e.particle_b] in pairs.tolist()
+        or [e.particle_b, e.particle_a] in pairs.tolist()
+        for e in torn
+    )

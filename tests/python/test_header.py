@@ -6,8 +6,9 @@ import ctypes
 import inspect
 import re
 import subprocess
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Mapping
+from typing import Any
 
 import pytest
 
@@ -53,7 +54,9 @@ def test_structs_have_the_layout_of_the_c_compiler(tmp_path: Path) -> None:
             )
             place = getattr(kind, field)
             expected.append(f"{name}.{field} {place.offset} {place.size}")
-    program = "#include <muslin.h>\n#include <stdio.h>\nint main(void) {\n" + "\n".join(rows) + "}\n"
+    program = (
+        "#include <muslin.h>\n#include <stdio.h>\nint main(void) {\n" + "\n".join(rows) + "}\n"
+    )
     (tmp_path / "layout.c").write_text(program)
     compile = ["cc", "-std=c99", "-I", str(ROOT / "include"), "layout.c", "-o", "layout"]
     subprocess.run(compile, cwd=tmp_path, check=True)
@@ -70,13 +73,21 @@ def test_constants_have_the_numbers_of_the_binary_interface() -> None:
     abi = (ROOT / "include/muslin.abi").read_text()
     numbers = {name: int(value) for name, value in re.findall(r"^MUSLIN_(\w+) = (\d+)$", abi, re.M)}
     known = {f"STATUS_{status.name}": int(status) for status in constants.Status}
-    known |= {name: vars(constants)[name] for name in
-              ("AS_MANY_AGAIN", "MAX_STREAMS", "ALL_VERTICES", "STAGE_SLOTS")}
+    known |= {
+        name: vars(constants)[name]
+        for name in ("AS_MANY_AGAIN", "MAX_STREAMS", "ALL_VERTICES", "STAGE_SLOTS")
+    }
     tables: dict[str, Mapping[Any, int]] = {
-        "LOG": constants.LOG_LEVELS, "PRESET": constants.PRESETS, "MAP": constants.MAPS,
-        "SELF_COLLISION": constants.SELF_COLLISIONS, "PIN": constants.PIN_MODES,
-        "WIND": constants.WIND_MODELS, "SHAPE": constants.SHAPES, "EVENT": constants.EVENT_KINDS,
-        "ATTRIBUTE": constants.ATTRIBUTES, "FORMAT": constants.VERTEX_FORMATS,
+        "LOG": constants.LOG_LEVELS,
+        "PRESET": constants.PRESETS,
+        "MAP": constants.MAPS,
+        "SELF_COLLISION": constants.SELF_COLLISIONS,
+        "PIN": constants.PIN_MODES,
+        "WIND": constants.WIND_MODELS,
+        "SHAPE": constants.SHAPES,
+        "EVENT": constants.EVENT_KINDS,
+        "ATTRIBUTE": constants.ATTRIBUTES,
+        "FORMAT": constants.VERTEX_FORMATS,
         "SEW": constants.SEW_KINDS,
     }
     for prefix, table in tables.items():

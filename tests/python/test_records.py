@@ -30,7 +30,12 @@ def test_defaults_of_colliders_are_those_of_the_library() -> None:
     init(desc, "muslin_collider_desc_init_sized")
     parameters = inspect.signature(Cloth.add_collider).parameters
     assert set(parameters) >= {name for name, *_ in desc._fields_} - {
-        "struct_size", "columns", "rows", "position_stride", "vertex_count", "index_count",
+        "struct_size",
+        "columns",
+        "rows",
+        "position_stride",
+        "vertex_count",
+        "index_count",
     }
     for name in ["tangential_restitution", "radius", "half_height", "spacing"]:
         assert parameters[name].default == getattr(desc, name)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import muslin
-from conftest import plane
 from muslin import Cloth, Error, Skin, Status, Stream
+from shapes import plane
 
 
 def test_interleaved_vertices_are_fields_of_one_array(cloth: Cloth) -> None:
@@ -26,10 +26,13 @@ def test_formats_follow_the_type_of_the_array(cloth: Cloth) -> None:
     half = np.zeros((400, 4), np.float16)
     short = np.zeros((400, 4), np.int16)
     octahedral = np.zeros((400, 2), np.int16)
-    cloth.write_vertices([
-        Stream("position", half), Stream("normal", short),
-        Stream("normal", octahedral, format="octahedral16"),
-    ])
+    cloth.write_vertices(
+        [
+            Stream("position", half),
+            Stream("normal", short),
+            Stream("normal", octahedral, format="octahedral16"),
+        ]
+    )
     assert np.allclose(half[:, :3], cloth.positions, atol=1e-3) and (half[:, 3] == 1).all()
     assert np.allclose(short[:, :3] / 32767, cloth.normals, atol=1e-4)
     folded = octahedral / 32767
@@ -75,7 +78,7 @@ def test_vertices_are_transformed_blended_and_selected(cloth: Cloth) -> None:
         (Stream("uv", np.zeros((399, 2), np.float32)), "streams[0].size"),
         (7, "streams[0]"),
     ],
-)  # fmt: skip
+)
 def test_a_wrong_stream_is_refused_and_nothing_is_written(
     cloth: Cloth, stream: Stream, field: str
 ) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import muslin
-from conftest import plane
+from shapes import plane
 
 LISTS = {
     "positions": (np.float32, 3),
@@ -53,7 +53,7 @@ def test_a_view_cannot_be_written(cloth: muslin.Cloth, name: str) -> None:
         view[0] = 0
     with pytest.raises(ValueError):
         view.flags.writeable = True
-    with pytest.raises(muslin.Error, match="`streams\\[0\\].array` must be an array that can be"):
+    with pytest.raises(muslin.Error, match=r"`streams\[0\].array` must be an array that can be"):
         cloth.write_vertices([muslin.Stream("position", view)])
 
 

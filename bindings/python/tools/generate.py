@@ -195,8 +195,8 @@ def functions(given: h.Header) -> str:
     out += "from typing import Any, Callable, Final\n\n"
     out += wrapped("from .structs import (", ", ".join(used), ")")
     out += "\nMuslinLogFn = CFUNCTYPE(None, c_uint32, c_char_p, c_void_p)\n\n"
-    out += "# Name, type of the result (None: a status), types of the parameters. Pointers to numbers\n"
-    out += "# are c_void_p, which takes addresses and byref().\n"
+    out += "# Name, type of the result (None: a status), types of the parameters. Pointers to\n"
+    out += "# numbers are c_void_p, which takes addresses and byref().\n"
     out += "_SIGNATURES: Final[list[tuple[str, Any, list[Any]]]] = [\n"
     for one in given.functions:
         results = {"MuslinStatus": "None", "char *": "c_char_p", **TYPES}
@@ -205,7 +205,8 @@ def functions(given: h.Header) -> str:
         out += wrapped(f'    ("{one.name}", {result}, [', parameters, "]),")
     out += "]\n\nNAMES: Final = [name for name, _, _ in _SIGNATURES]\n\n\n"
     out += "def declare(library: CDLL, status: Callable[[int], int]) -> None:\n"
-    out += '    """Sets the types of all functions. `status` receives each status that one returns."""\n'
+    about = "Sets the types of all functions. `status` receives each status that one returns."
+    out += docstring(about, 4)
     out += "    for name, result, parameters in _SIGNATURES:\n"
     out += "        function = getattr(library, name)\n"
     out += "        function.argtypes = parameters\n"

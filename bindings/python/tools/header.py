@@ -114,7 +114,9 @@ def declarations(text: str, forms: list[re.Pattern[str]]) -> list[tuple[str, re.
         else:
             match = PREPROCESSOR.match(text, at)
             if match is None:
-                raise SystemExit(f"muslin.h has an unknown kind of declaration: {text[at:at + 60]!r}")
+                raise SystemExit(
+                    f"muslin.h has an unknown kind of declaration: {text[at : at + 60]!r}"
+                )
         at = match.end()
     return found
 

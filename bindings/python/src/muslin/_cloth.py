@@ -1,4 +1,4 @@
-"""The class Cloth: how a cloth is made, saved and ended. Its other calls are in its base classes."""
+"""The class Cloth: how a cloth is made and saved. Its other calls are in its base classes."""
 
 from __future__ import annotations
 
@@ -10,13 +10,24 @@ from numpy.typing import ArrayLike
 
 from ._colliders import Colliders
 from ._convert import (
-    Vec3Like, check_length, to_choice, to_floats, to_number, to_uint, to_uints, to_vec3,
+    Vec3Like,
+    check_length,
+    to_choice,
+    to_floats,
+    to_number,
+    to_uint,
+    to_uints,
+    to_vec3,
 )
 from ._errors import bad_value
 from ._generated.constants import AS_MANY_AGAIN, PIN_MODES, PinMode
 from ._generated.records import Settings
 from ._generated.structs import (
-    MuslinCloth, MuslinGridDesc, MuslinMaterial, MuslinMeshDesc, MuslinSettings,
+    MuslinCloth,
+    MuslinGridDesc,
+    MuslinMaterial,
+    MuslinMeshDesc,
+    MuslinSettings,
 )
 from ._library import lib
 from ._outputs import Outputs

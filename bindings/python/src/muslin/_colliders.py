@@ -9,8 +9,19 @@ from numpy.typing import ArrayLike
 
 from ._base import ClothBase
 from ._convert import (
-    NO_ROTATION, Quat, QuatLike, Vec3, Vec3Like, from_quat, from_vec3, to_choice, to_floats,
-    to_number, to_quat, to_uints, to_vec3,
+    NO_ROTATION,
+    Quat,
+    QuatLike,
+    Vec3,
+    Vec3Like,
+    from_quat,
+    from_vec3,
+    to_choice,
+    to_floats,
+    to_number,
+    to_quat,
+    to_uints,
+    to_vec3,
 )
 from ._errors import bad_value
 from ._generated.constants import SHAPES, Shape
@@ -107,9 +118,14 @@ class Colliders(ClothBase):
         desc.rotation = to_quat(rotation, "rotation")
         desc.half_extents = to_vec3(half_extents, "half_extents")
         numbers = {
-            "friction": friction, "restitution": restitution, "thickness": thickness,
-            "tangential_restitution": tangential_restitution, "radius": radius,
-            "top_radius": top_radius, "half_height": half_height, "spacing": spacing,
+            "friction": friction,
+            "restitution": restitution,
+            "thickness": thickness,
+            "tangential_restitution": tangential_restitution,
+            "radius": radius,
+            "top_radius": top_radius,
+            "half_height": half_height,
+            "spacing": spacing,
         }
         for name, number in numbers.items():
             if number is not None:

@@ -165,4 +165,6 @@ def from_c(event: MuslinEvent) -> AnyEvent:
     """Returns an event of the library as an object of its class."""
     kind = _CLASSES[event.kind]
     names = [field.name for field in fields(kind) if field.name != "position"]
-    return kind(position=from_vec3(event.position), **{name: getattr(event, name) for name in names})
+    return kind(
+        position=from_vec3(event.position), **{name: getattr(event, name) for name in names}
+    )

@@ -6,12 +6,13 @@ import atexit
 import ctypes
 import os
 import sys
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Callable, Final, Iterator
+from typing import Final
 
-from ._errors import Error, bad_value
 from ._convert import to_choice
+from ._errors import Error, bad_value
 from ._generated.constants import LOG_LEVELS, LogLevel, Status
 from ._generated.functions import MuslinLogFn, declare
 
@@ -85,9 +86,7 @@ def _pass_on(level: int, message: bytes, _user: object) -> None:
 _log: Final = MuslinLogFn(_pass_on)
 
 
-def set_log(
-    handler: Callable[[LogLevel, str], None] | None, max_level: LogLevel = "info"
-) -> None:
+def set_log(handler: Callable[[LogLevel, str], None] | None, max_level: LogLevel = "info") -> None:
     """Sends log messages up to `max_level` to `handler`; None, the initial value, switches the log
     off.
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from ctypes import byref, c_uint32, c_uint64, sizeof
-from typing import Any, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,10 +23,10 @@ class Outputs(ClothBase):
     """Calls that read.
 
     Properties with a list per vertex or triangle are views of the library's memory: read-only
-    arrays without a copy, fresh at each access. A view follows the cloth until the next call that
-    changes the cloth, and is out of date from then on: it may hold the new numbers, those of a cloth
-    that has torn with its old length. So get it anew in each frame; `.copy()` keeps it. Its memory
-    lives as long as it does. Do not read it on one thread while another one changes the cloth.
+    arrays without a copy, fresh at each access. A view is valid until the next call that changes
+    the cloth, and out of date from then on: it may hold new numbers, and of a cloth that has torn
+    it has the old length. So get it anew in each frame; `.copy()` keeps it. Its memory lives as
+    long as it does. Do not read it on one thread while another one changes the cloth.
     """
 
     @property
@@ -79,8 +80,9 @@ class Outputs(ClothBase):
 
         It is zero while most of the cloth stays within 16 m of zero along each axis. Beyond, it
         follows the cloth, so that positions far from zero are as exact as near it. All positions
-        that you pass or read are absolute, except for `relative_positions` and what `write_vertices`
-        writes with `relative`. Only ticks and calls that place particles move the origin.
+        that you pass or read are absolute, except for `relative_positions` and for what
+        `write_vertices` writes with `relative`. Only ticks and calls that place particles move the
+        origin.
         """
         origin = MuslinVec3()
         lib.muslin_cloth_get_origin(self._live, origin)
@@ -189,8 +191,8 @@ class Outputs(ClothBase):
 
         - `first_vertex`, `vertex_count`: vertices to write, the first one to row 0; None: all from
           `first_vertex` on.
-        - `blend`: time to draw, from 0 (last tick) to 1 (current tick). Pass the cloth's `blend` for
-          smooth motion. Normals and tangents belong to the interpolated surface.
+        - `blend`: time to draw, from 0 (last tick) to 1 (current tick). Pass the cloth's `blend`
+          for smooth motion. Normals and tangents belong to the interpolated surface.
         - `transform`: applied to positions after the offset, shape (3, 4): x becomes
           t[0] x + t[1] y + t[2] z + t[3] of its first row. None: identity. Normals stay
           perpendicular to the surface and on their side of it; tangents stay in the surface.

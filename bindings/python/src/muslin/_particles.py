@@ -11,7 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._base import ClothBase
 from ._convert import (
-    Vec3, Vec3Like, check_length, from_vec3, to_choice, to_floats, to_uint, to_uints, to_vec3,
+    Vec3,
+    Vec3Like,
+    check_length,
+    from_vec3,
+    to_choice,
+    to_floats,
+    to_uint,
+    to_uints,
+    to_vec3,
 )
 from ._errors import Error, bad_value
 from ._generated.constants import MAPS, MapName, Status
@@ -117,8 +125,8 @@ class Particles(ClothBase):
 
     def set_mass_scales(self, particles: ArrayLike, scales: ArrayLike) -> None:
         """Multiplies the masses of particles by factors, from 0.001 to 1000, one for each: 1, the
-        initial value, keeps the mass that density and surrounding area give. A hem hangs straight at
-        about 5; a coin that is sewn in may be 100.
+        initial value, keeps the mass that density and surrounding area give. A hem hangs straight
+        at about 5; a coin that is sewn in may be 100.
 
         Factors stay when the density changes. Neighbours may differ by a factor of 100; at factors
         in the thousands, light particles that carry heavy ones stretch unless `substeps` is raised.

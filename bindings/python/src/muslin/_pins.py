@@ -1,4 +1,4 @@
-"""What holds particles: pins, attachments, anchors; and the frame of the body that wears the cloth."""
+"""What holds particles: pins, attachments, anchors; the frame of the body that wears the cloth."""
 
 from __future__ import annotations
 
@@ -11,8 +11,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._base import ClothBase
 from ._convert import (
-    NO_ROTATION, QuatLike, Vec3Like, check_length, to_floats, to_number, to_quat, to_uint,
-    to_uints, to_vec3,
+    NO_ROTATION,
+    QuatLike,
+    Vec3Like,
+    check_length,
+    to_floats,
+    to_number,
+    to_quat,
+    to_uint,
+    to_uints,
+    to_vec3,
 )
 from ._errors import bad_value
 from ._generated.structs import MuslinAttachment

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Callable, ClassVar, Mapping, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from ._convert import from_vec3, shortest, to_choice, to_flag, to_number, to_uint, to_vec3
 from ._library import init, lib
@@ -56,7 +57,7 @@ class Record:
         """Returns a struct with its size, and its defaults where it has some."""
         struct = cls._struct()
         if cls._init is None:
-            setattr(struct, "struct_size", ctypes.sizeof(struct))
+            struct.struct_size = ctypes.sizeof(struct)
         else:
             init(struct, cls._init)
         return struct

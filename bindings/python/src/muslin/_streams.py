@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Callable, Final, Sequence
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from ._convert import to_choice, to_flag, to_floats, to_number, to_uint
 from ._errors import bad_value
 from ._generated.constants import (
-    ALL_VERTICES, ATTRIBUTES, MAX_STREAMS, VERTEX_FORMATS, Attribute, VertexFormat,
+    ALL_VERTICES,
+    ATTRIBUTES,
+    MAX_STREAMS,
+    VERTEX_FORMATS,
+    Attribute,
+    VertexFormat,
 )
 from ._generated.structs import MuslinStream, MuslinWriteDesc
 from ._library import init
@@ -24,7 +30,12 @@ _WIDTHS: Final[dict[str, dict[str, int]]] = {
     "snorm16": {"normal": 4, "tangent": 4, "frayed": 2},
     "octahedral16": {"normal": 2, "tangent": 4},
 }
-_TYPES: Final = {"f32": np.float32, "f16": np.float16, "snorm16": np.int16, "octahedral16": np.int16}
+_TYPES: Final = {
+    "f32": np.float32,
+    "f16": np.float16,
+    "snorm16": np.int16,
+    "octahedral16": np.int16,
+}
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,14 @@ from numpy.typing import ArrayLike
 
 from ._base import ClothBase
 from ._convert import (
-    Vec3, Vec3Like, from_vec3, to_choice, to_number, to_uint, to_uints, to_vec3,
+    Vec3,
+    Vec3Like,
+    from_vec3,
+    to_choice,
+    to_number,
+    to_uint,
+    to_uints,
+    to_vec3,
 )
 from ._errors import bad_value
 from ._generated.constants import SEW_KINDS, SewKind, Status

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from ._generated.structs import MuslinView
 
-
 # Type of the numbers of a list, and how many there are in a row; 0 for a list of single numbers.
 _FLOAT, _UINT, _BOOL = (np.dtype(kind).str for kind in (np.float32, np.uint32, np.bool_))
 _LISTS: Final = {
@@ -52,9 +51,7 @@ class _Borrowed:
         }
 
 
-def borrow(
-    address: int | None, shape: tuple[int, ...], kind: str, owner: object
-) -> NDArray[Any]:
+def borrow(address: int | None, shape: tuple[int, ...], kind: str, owner: object) -> NDArray[Any]:
     """Returns a read-only array over memory of the library, which `owner` keeps alive."""
     return np.asarray(_Borrowed(address, shape, kind, owner))
 

@@ -15,8 +15,8 @@ from .structs import (
 
 MuslinLogFn = CFUNCTYPE(None, c_uint32, c_char_p, c_void_p)
 
-# Name, type of the result (None: a status), types of the parameters. Pointers to numbers
-# are c_void_p, which takes addresses and byref().
+# Name, type of the result (None: a status), types of the parameters. Pointers to
+# numbers are c_void_p, which takes addresses and byref().
 _SIGNATURES: Final[list[tuple[str, Any, list[Any]]]] = [
     ("muslin_version", c_uint32, []),
     ("muslin_version_string", c_char_p, []),
