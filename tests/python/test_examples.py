@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import struct
 import subprocess
 import sys
@@ -11,7 +12,8 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdGeom
 
-EXAMPLES = Path(__file__).parents[2] / "bindings/python/examples"
+PACKAGE = Path(__file__).parents[2] / "bindings/python"
+EXAMPLES = PACKAGE / "examples"
 
 
 def run(example: str, *arguments: object) -> str:
@@ -20,6 +22,14 @@ def run(example: str, *arguments: object) -> str:
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+def test_the_code_of_the_readme_runs() -> None:
+    blocks = re.findall(r"```py\n(.*?)```", (PACKAGE / "README.md").read_text(), re.S)
+    assert len(blocks) == 1
+    for block in blocks:
+        done = subprocess.run([sys.executable, "-c", block], capture_output=True, text=True)
+        assert done.returncode == 0 and "1600 vertices" in done.stdout, done.stderr
 
 
 def test_a_pattern_is_sewn_and_written_as_obj_files(tmp_path: Path) -> None:

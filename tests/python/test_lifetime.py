@@ -132,6 +132,7 @@ def test_ticks_release_the_interpreter_and_a_busy_cloth_is_refused() -> None:
         except Error as error:
             assert error.status == Status.BUSY
             refused += 1
+            assert "muslin.Cloth" in repr(cloth)
         time.sleep(0.001)
     thread.join()
     assert rounds > 10 and refused > 10

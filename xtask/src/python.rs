@@ -140,7 +140,7 @@ fn tools_pip() -> Command {
 }
 
 /// Installs the programs that `requirements.txt` lists, unless just these are installed.
-fn install_tools() -> Result {
+pub fn install_tools() -> Result {
     let wanted = files::read(&requirements())?;
     let installed = tools().join("requirements.txt");
     if files::read(&installed).ok().as_ref() != Some(&wanted) {

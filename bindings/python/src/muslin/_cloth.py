@@ -19,7 +19,7 @@ from ._convert import (
     to_uints,
     to_vec3,
 )
-from ._errors import bad_value
+from ._errors import Error, bad_value
 from ._generated.constants import AS_MANY_AGAIN, PIN_MODES, PinMode
 from ._generated.records import Settings
 from ._generated.structs import (
@@ -227,7 +227,10 @@ class Cloth(Parameters, Particles, Pins, Topology, Colliders, Outputs):
     def __repr__(self) -> str:
         if self.closed:
             return "<muslin.Cloth, closed>"
-        view, _ = self._view()
+        try:
+            view, _ = self._view()
+        except Error:
+            return "<muslin.Cloth, busy on another thread>"
         triangles = view.index_count // 3
         return f"<muslin.Cloth of {view.vertex_count} vertices and {triangles} triangles>"
 
