@@ -128,7 +128,9 @@ def test_a_welded_mesh_has_several_vertices_per_particle() -> None:
     (left, triangles), (right, _) = plane(5, 5, 0.1, (0, 0, 0)), plane(5, 5, 0.1, (0.4, 0, 0))
     positions = np.concatenate([left, right])
     indices = np.concatenate([triangles, triangles + 25])
-    cloth = muslin.Cloth.mesh(positions, indices, weld_distance=1e-4, pinned=[0])
+    uvs = positions[:, [0, 2]]
+    cloth = muslin.Cloth.mesh(positions, indices, uvs=uvs, weld_distance=1e-4, pinned=[0])
+    assert np.allclose(cloth.uvs, uvs)
     assert cloth.mesh_report.welded_vertices == 5 and not cloth.mesh_report.is_grid
     assert len(cloth.positions) == 50 and cloth.particle_count == 45 == cloth.stats.particles
     particles = cloth.vertex_particles
