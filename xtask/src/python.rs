@@ -52,7 +52,7 @@ pub fn build() -> Result {
     pip.args(["install", "--quiet", "--no-deps", "--force-reinstall"]);
     shell::run(pip.arg(&wheel))?;
     install_for_user(&wheel)?;
-    println!("the wheel is {}", wheel.display());
+    println!("the wheel is in dist/python");
     Ok(())
 }
 

@@ -33,12 +33,12 @@ class LibraryHook(BuildHookInterface[Any]):
         build_data["tag"] = f"py3-none-{platform(library)}"
 
     def build(self, name: str) -> Path:
-        """Builds the library in the repository that contains the package."""
+        """Builds the library in the repository that contains the package, for `pip install .`."""
         root = Path(self.root).parents[1]
-        command = ["cargo", "build", "--release", "--package", "muslin-c"]
+        target = root / "target/python/cargo"
+        command = ["cargo", "build", "--release", "--package", "muslin-c", "--target-dir", target]
         subprocess.run(command, cwd=root, check=True)
-        target = Path(os.environ.get("CARGO_TARGET_DIR", "target"))
-        return root / target / "release" / name
+        return target / "release" / name
 
 
 def platform(library: Path) -> str:
