@@ -89,6 +89,7 @@ class Cloth(Parameters, Particles, Pins, Topology, Colliders, Outputs):
         - `extra_particles`: particles to reserve for tears and cuts; None: as many again, 0 if the
           cloth never tears.
         - `material`: a `Material` or the name of a preset; None: the defaults of `Material`.
+        - `settings`: None: the defaults of `Settings`.
 
         Raises `Error` for an invalid field.
         """
