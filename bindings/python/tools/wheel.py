@@ -36,8 +36,8 @@ class LibraryHook(BuildHookInterface[Any]):
         """Builds the library in the repository that contains the package, for `pip install .`."""
         root = Path(self.root).parents[1]
         target = root / "target/python/cargo"
-        command = ["cargo", "build", "--release", "--package", "muslin-c", "--target-dir", target]
-        subprocess.run(command, cwd=root, check=True)
+        command = ["cargo", "build", "--release", "--package", "muslin-c"]
+        subprocess.run([*command, "--target-dir", str(target)], cwd=root, check=True)
         return target / "release" / name
 
 
