@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -65,6 +67,23 @@ def test_vertices_are_transformed_blended_and_selected(cloth: Cloth) -> None:
     cloth.write_vertices(streams, flip_normals=True, offset=0.5)
     assert np.allclose(normals, -cloth.normals, atol=1e-6)
     assert np.allclose(moved, cloth.positions - 0.5 * cloth.normals, atol=1e-5)
+
+
+def test_a_wrong_selection_is_refused_by_name(cloth: Cloth) -> None:
+    out = np.zeros((400, 3), np.float32)
+    wrong: list[tuple[str, dict[str, Any]]] = [
+        ("first_vertex", {"first_vertex": 401}),
+        ("vertex_count", {"first_vertex": 390, "vertex_count": 11}),
+        ("blend", {"blend": 1.5}),
+        ("offset", {"offset": np.nan}),
+        ("transform", {"transform": np.zeros((3, 4))}),
+        ("transform", {"transform": np.eye(4)}),
+        ("relative", {"relative": 1}),
+    ]
+    for field, choice in wrong:
+        with pytest.raises(Error) as caught:
+            cloth.write_vertices([Stream("normal", out)], **choice)
+        assert caught.value.field == field and not out.any()
 
 
 @pytest.mark.parametrize(

@@ -204,13 +204,15 @@ def functions(given: h.Header) -> str:
         parameters = ", ".join(parameter(p) for p in one.parameters)
         out += wrapped(f'    ("{one.name}", {result}, [', parameters, "]),")
     out += "]\n\nNAMES: Final = [name for name, _, _ in _SIGNATURES]\n\n\n"
-    out += "def declare(library: CDLL, status: Callable[[int], int]) -> None:\n"
-    about = "Sets the types of all functions. `status` receives each status that one returns."
+    out += "def declare(library: CDLL, check: Callable[[int, Any, Any], int]) -> None:\n"
+    about = "Sets the types of all functions. `check` receives each status that one returns."
     out += docstring(about, 4)
     out += "    for name, result, parameters in _SIGNATURES:\n"
     out += "        function = getattr(library, name)\n"
     out += "        function.argtypes = parameters\n"
-    out += "        function.restype = status if result is None else result\n"
+    out += "        function.restype = c_uint32 if result is None else result\n"
+    out += "        if result is None:\n"
+    out += "            function.errcheck = check\n"
     return out
 
 

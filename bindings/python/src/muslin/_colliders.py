@@ -26,7 +26,7 @@ from ._convert import (
 from ._errors import bad_value
 from ._generated.constants import SHAPES, Shape
 from ._generated.structs import MuslinCollider, MuslinColliderDesc, MuslinQuat, MuslinVec3
-from ._library import init, lib, rows_of
+from ._library import init, lib
 
 
 @dataclass(frozen=True)
@@ -179,8 +179,7 @@ class Colliders(ClothBase):
         """
         rows = to_floats(positions, "positions", ("n", 3))
         data = (_collider(collider), rows.ctypes.data, 0, len(rows))
-        with rows_of("positions"):
-            lib.muslin_cloth_update_collider(self._live, *data)
+        lib.muslin_cloth_update_collider(self._live, *data)
 
     def collide_with(self, other: ClothBase, collider: Collider | None = None) -> Collider:
         """Makes the surface of another cloth a collider of this one, or updates it: clothes in

@@ -6,10 +6,9 @@ import atexit
 import ctypes
 import os
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from ._convert import to_choice
 from ._errors import Error, bad_value
@@ -21,34 +20,33 @@ _NAMES: Final = {"win32": "muslin.dll", "darwin": "libmuslin.dylib"}
 # Statuses that are answers, not errors.
 _ANSWERS: Final = (Status.OK, Status.NOTHING_HIT, Status.NOT_TORN)
 
-
-# Numbers that C programs pass and arrays have.
+# Numbers that C programs pass, and what they are in Python.
 _LENGTHS: Final = {
-    "`count`": "`len(particles)`",
     "`pair_count`": "`len(pairs)`",
     "`pinned_count`": "`len(pinned)`",
     "`vertex_count`": "`len(positions)`",
     "`index_count`": "`indices.size`",
 }
+# The array whose rows `count` counts, where it is not `particles`.
+_COUNTED: Final = {
+    "muslin_cloth_set_positions": "positions",
+    "muslin_cloth_set_velocities": "velocities",
+    "muslin_cloth_update_collider": "positions",
+}
+# These have a `vertex_count` in Python too.
+_WRITERS: Final = ("muslin_cloth_write_vertices", "muslin_skin_write_vertices")
 
 
-def _check(status: int) -> int:
+def _check(status: int, function: Any, _arguments: object) -> int:
     """Returns a status that is an answer; raises `Error` with the library's message otherwise."""
     if status in _ANSWERS:
         return status
-    message = lib.muslin_last_error().decode()
-    for name, length in _LENGTHS.items():
-        message = message.replace(name, length)
+    name, message = function.__name__, lib.muslin_last_error().decode()
+    if name not in _WRITERS:
+        counted = _COUNTED.get(name, "particles")
+        for number, length in {**_LENGTHS, "`count`": f"`len({counted})`"}.items():
+            message = message.replace(number, length)
     raise Error(Status(status), message)
-
-
-@contextmanager
-def rows_of(name: str) -> Iterator[None]:
-    """Gives errors about the number of rows the name of the array."""
-    try:
-        yield
-    except Error as error:
-        raise Error(error.status, str(error).replace("particles)", f"{name})")) from None
 
 
 def _load() -> ctypes.CDLL:

@@ -24,7 +24,7 @@ from ._convert import (
 from ._errors import Error, bad_value
 from ._generated.constants import MAPS, MapName, Status
 from ._generated.structs import MuslinVec3
-from ._library import lib, rows_of
+from ._library import lib
 from ._views import lists_of
 
 
@@ -104,14 +104,12 @@ class Particles(ClothBase):
         than particles from `first` on, or if a position is not finite; the text names it.
         """
         rows = to_floats(positions, "positions", ("n", 3))
-        with rows_of("positions"):
-            self._set_vectors(lib.muslin_cloth_set_positions, first, rows)
+        self._set_vectors(lib.muslin_cloth_set_positions, first, rows)
 
     def set_velocities(self, velocities: ArrayLike, first: int = 0) -> None:
         """Sets the velocities of particles [m/s], from `first` on, as `set_positions` does."""
         rows = to_floats(velocities, "velocities", ("n", 3))
-        with rows_of("velocities"):
-            self._set_vectors(lib.muslin_cloth_set_velocities, first, rows)
+        self._set_vectors(lib.muslin_cloth_set_velocities, first, rows)
 
     def _set_vectors(self, write: Any, first: int, rows: NDArray[np.float32]) -> None:
         write(self._live, to_uint(first, "first"), len(rows), rows.ctypes.data, 0)

@@ -140,9 +140,11 @@ _SIGNATURES: Final[list[tuple[str, Any, list[Any]]]] = [
 NAMES: Final = [name for name, _, _ in _SIGNATURES]
 
 
-def declare(library: CDLL, status: Callable[[int], int]) -> None:
-    """Sets the types of all functions. `status` receives each status that one returns."""
+def declare(library: CDLL, check: Callable[[int, Any, Any], int]) -> None:
+    """Sets the types of all functions. `check` receives each status that one returns."""
     for name, result, parameters in _SIGNATURES:
         function = getattr(library, name)
         function.argtypes = parameters
-        function.restype = status if result is None else result
+        function.restype = c_uint32 if result is None else result
+        if result is None:
+            function.errcheck = check
