@@ -118,6 +118,10 @@ def test_time_runs_in_ticks() -> None:
     assert cloth.is_asleep and cloth.stats.asleep
 
 
+def test_a_cloth_shows_its_size() -> None:
+    assert repr(Cloth.grid(3, 3)) == "<muslin.Cloth of 9 vertices and 8 triangles>"
+
+
 def test_stats_name_the_stages() -> None:
     cloth = Cloth.grid()
     assert set(cloth.stats.seconds.values()) == {0}

@@ -18,6 +18,15 @@ NAN = float("nan")
 CASES: list[tuple[str, str | None, str, Call]] = [
     ("BAD_VALUE", "seconds", "be", lambda c: c.advance(-1)),
     ("BAD_VALUE", "seconds", "be a number", lambda c: c.advance("1")),
+    ("BAD_VALUE", "seconds", "be a number", lambda c: c.advance(None)),
+    ("BAD_VALUE", "handler", "be a function or None", lambda c: muslin.set_log(7)),  # type: ignore[arg-type]
+    ("BAD_VALUE", "max_level", 'be one of "error"', lambda c: muslin.set_log(None, "all")),  # type: ignore[arg-type]
+    (
+        "BAD_VALUE",
+        "buffer",
+        "be an array that can be written, without gaps",
+        lambda c: c.write_indices(np.zeros(9999, np.uint32)[::2]),
+    ),
     ("BAD_VALUE", "ticks", "be from 0 to 4294967295", lambda c: c.step(-1)),
     ("BAD_VALUE", "ticks", "be a whole number", lambda c: c.step(1.5)),
     (
