@@ -67,7 +67,7 @@ def test_presets_differ_and_may_be_given_by_name() -> None:
     assert len({preset.density for preset in presets}) == len(PRESETS)
     cloth = Cloth.grid(3, 3, material="denim")
     assert cloth.material == Material.preset("denim") and cloth.material.density == 0.38
-    cloth.material = "paper"  # type: ignore[assignment]
+    cloth.material = "paper"
     assert cloth.material == Material.preset("paper") and cloth.material.yield_angle > 0
 
 

@@ -148,8 +148,10 @@ class Parameters(ClothBase):
 
     @property
     def material(self) -> Material:
-        """What the cloth is made of. Assign another one to replace it from the next tick on:
+        """What the cloth is made of. Assign another one, or the name of a preset, to replace it
+        from the next tick on:
 
+            cloth.material = "silk"
             cloth.material = dataclasses.replace(Material.preset("denim"), friction=0.2)
 
         Velocities stay as they are. Raises `Error` for an invalid field; nothing changes then.
@@ -157,7 +159,7 @@ class Parameters(ClothBase):
         return self._read(lib.muslin_cloth_get_material, Material)
 
     @material.setter
-    def material(self, material: Material) -> None:
+    def material(self, material: MaterialLike) -> None:
         lib.muslin_cloth_set_material(self._live, material_to_c(material, "material"))
 
     @property
