@@ -178,8 +178,13 @@ def annotation(one: h.Field) -> str:
 def c_type(one: h.Field) -> str:
     if one.is_pointer:
         return "c_void_p"
-    name = TYPES.get(one.type, one.type)
+    name = by_value(one.type)
     return f"{name} * {one.length.removeprefix('MUSLIN_')}" if one.length else name
+
+
+def by_value(c_type: str) -> str:
+    """Returns the type in ctypes of a number, struct or function."""
+    return TYPES.get(c_type) or (c_type if c_type.startswith("Muslin") else unknown(c_type))
 
 
 def unknown(c_type: str) -> str:
@@ -224,7 +229,7 @@ def structs_of(parameter_type: str) -> list[str]:
 def parameter(c_type: str) -> str:
     name = c_type.rstrip(" *")
     if not c_type.endswith("*"):
-        return TYPES.get(name, name)
+        return by_value(name)
     return f"POINTER({name})" if name.startswith("Muslin") else "c_void_p"
 
 
