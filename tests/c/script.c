@@ -1,4 +1,5 @@
-/* One script in three languages; tests/golden/tests/golden/script.rs has it in Rust.
+/* One script in four languages: tests/golden/tests/golden/script.rs, tests/js/script.mjs,
+ * tests/python/test_golden.py.
  * All of them must end in the hash that tests/script.hash holds. */
 #include "check.h"
 #include <stdlib.h>

@@ -26,6 +26,7 @@ mod no_wasm;
 mod npm;
 mod package;
 mod picture;
+mod python;
 mod race;
 mod readme;
 mod rust;
@@ -60,6 +61,7 @@ cargo xtask bits                    simulate golden scenes on every platform, co
 cargo xtask web                     build the demo's page into dist/web
   --url ADDRESS/                    for this address, which previews of links need
 cargo xtask js                      build the npm package into dist/js
+cargo xtask python                  build the wheel of the Python package into dist/python
 cargo xtask c                       build the C library, compile and run its tests and examples
 cargo xtask package                 pack the C library as users install it, into dist/c
   --js                              pack the npm package into dist instead, and print its sizes
@@ -106,6 +108,7 @@ fn run(args: &[String]) -> Result {
         "miri" => miri::run(rest),
         "verify" => verify::run(rest),
         "fuzz" => fuzz::run(rest),
+        "python" => alone(chore, rest, python::build),
         "c" => alone(chore, rest, c_tests::check),
         "package" if rest == ["--js"] => clients::pack(),
         "package" => alone(chore, rest, package::build),

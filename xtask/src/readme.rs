@@ -6,7 +6,7 @@
 //! | `rust` | step `rust` runs it as an example of the crate, because `src/lib.rs` includes the page |
 //! | `c`, `cpp` | compiled, linked both ways, run, and run under valgrind |
 //! | `js` | run in node, with the npm package installed |
-//! | `py` | run with Python 3 in the root of the repository |
+//! | `py` | run with Python 3, with the wheel of the Python package installed |
 //! | `sh` | each command is run, or named as a step that runs it |
 //! | `cmake` | each line is part of the CMake project that step `package` builds |
 //! | `text` | not code |
@@ -14,7 +14,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
-use crate::{bench, c, c_tests, demo, files, js, npm, setup, shell};
+use crate::{bench, c, c_tests, demo, files, js, npm, python, setup, shell};
 
 /// A fenced block of code.
 #[derive(Debug, PartialEq)]
@@ -48,13 +48,16 @@ pub fn test(is_step: IsStep) -> Result {
         return Err(Failure::new("README.md or docs shows no code"));
     }
     files::create_empty_dir(&scratch())?;
-    if has(&["c", "cpp", "py"]) {
-        setup::ensure(&[&setup::CXX, &setup::VALGRIND, &setup::PYTHON])?;
+    if has(&["c", "cpp"]) {
+        setup::ensure(&[&setup::CXX, &setup::VALGRIND])?;
         c::build()?;
     }
     if has(&["js"]) {
         js::build()?;
         js::install_for_tests()?;
+    }
+    if has(&["py"]) {
+        python::install()?;
     }
     for block in &blocks {
         println!("{}: {}", block.place(), block.language);
@@ -149,7 +152,7 @@ impl Block {
             "py" => {
                 let source = scratch().join(name + ".py");
                 files::write(&source, &self.text)?;
-                shell::run(shell::command("python3").arg(source))
+                shell::run(shell::command(python::user_interpreter()).arg(source))
             }
             "cmake" => self.check_cmake(),
             "sh" => self.commands().try_for_each(|(line, command)| {
@@ -221,6 +224,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["demo", "--shot", _file, options @ ..] => Action::Shot(options.to_vec()),
         ["js"] => Action::Step("js"),
         ["c"] => Action::Step("c"),
+        ["python"] => Action::Step("python"),
         ["package", "--js"] => Action::Step("clients"),
         ["examples"] => Action::Step("examples"),
         ["web" | "setup" | "manual-pictures"] => Action::Chore(rest.to_vec()),

@@ -119,6 +119,18 @@ pub const OGRE: Need = Need {
 pub const PYTHON: Need =
     Need { name: "Python 3", packages: &["python3"], is_installed: || which("python3").is_some() };
 
+/// The Python interpreter with what makes environments, in a version that the tools of the Python
+/// package run in.
+pub const PYTHON_VENV: Need = Need {
+    name: "Python 3.11 or newer with venv",
+    packages: &["python3", "python3-venv"],
+    is_installed: || {
+        // Debian's venv without python3-venv lacks ensurepip.
+        let probe = "import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))";
+        shell::succeeds("python3", &["-c", probe])
+    },
+};
+
 /// The X11 libraries that the demo's window needs.
 pub const X11: Need = Need {
     name: "the X11 libraries",

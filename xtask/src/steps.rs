@@ -3,8 +3,8 @@
 use crate::failure::Result;
 use crate::setup::{self, Need};
 use crate::{
-    bits, c_tests, clients, demo, engines, examples, fuzz, js_tests, package, readme, rust, verify,
-    web,
+    bits, c_tests, clients, demo, engines, examples, fuzz, js_tests, package, python, readme, rust,
+    verify, web,
 };
 
 /// One part of the tests.
@@ -40,11 +40,15 @@ pub enum Output {
     DemoPage,
     /// `dist/c`.
     CPackage,
+    /// `dist/python` and the environments with the wheel.
+    PythonPackage,
     /// `target/fuzz`.
     Fuzzer,
 }
 
-use Output::{CLibrary, CPackage, DebugBuild, DemoPage, Fuzzer, NpmPackage, TestBuild};
+use Output::{
+    CLibrary, CPackage, DebugBuild, DemoPage, Fuzzer, NpmPackage, PythonPackage, TestBuild,
+};
 
 /// All steps. Those that take longest come early, so that the last ones end together.
 pub const STEPS: &[Step] = &[
@@ -139,6 +143,15 @@ pub const STEPS: &[Step] = &[
         run: package::test,
     },
     Step {
+        name: "python",
+        about: "the Python package as users install it, its types and examples",
+        needs: python::NEEDS,
+        writes: &[CLibrary, PythonPackage],
+        reads: &[],
+        is_default: true,
+        run: python::test,
+    },
+    Step {
         name: "clients",
         about: "the npm package as users install it: a page, Vite, webpack, node",
         needs: &[&setup::NODE, &setup::CHROMIUM],
@@ -159,8 +172,8 @@ pub const STEPS: &[Step] = &[
     Step {
         name: "readme",
         about: "every block of code and every command in README.md, CONTRIBUTING.md and docs",
-        needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL, &setup::PYTHON],
-        writes: &[CLibrary, TestBuild, DemoPage],
+        needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL, &setup::PYTHON_VENV],
+        writes: &[CLibrary, PythonPackage, TestBuild, DemoPage],
         reads: &[NpmPackage],
         is_default: true,
         run: || readme::test(is_step),

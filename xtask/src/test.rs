@@ -6,7 +6,7 @@ use crate::failure::{During, Failure, Result};
 use crate::lanes::{self, Outcome};
 use crate::setup::{self, Need};
 use crate::steps::{STEPS, Step};
-use crate::{bits, npm, rust, tools};
+use crate::{bits, npm, python, rust, tools};
 
 /// The option that adds the steps that take long and rarely find anything.
 const ALL: &str = "--all";
@@ -67,6 +67,7 @@ pub fn prepare(words: &[String]) -> Result {
             setup::ensure_component("clippy", "clippy")?;
             bits::ensure_targets()?;
             tools::install()?;
+            python::install_tools()?;
             npm::install()
         }
         [list] if list == "--list" => {

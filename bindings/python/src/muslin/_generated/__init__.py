@@ -1,0 +1,1 @@
+"""What is generated from include/muslin.h."""
