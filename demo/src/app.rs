@@ -25,10 +25,13 @@ use crate::render::trail::TrailPoint;
 use crate::render::{FrameScene, Renderer};
 use crate::scene;
 use crate::settings::Settings;
+use crate::smooth_surface::SmoothSurface;
 use crate::surfaces::{self, WireframeLines};
 
 /// Longest frame time that the camera animation uses [s].
 const LONGEST_FRAME: f32 = 0.1;
+/// Period of [`FrameScene::time`], so that it stays exact [s].
+const TIME_PERIOD: f32 = 3600.0;
 
 /// The running demo with one of the cloth scenes.
 pub struct App {
@@ -47,6 +50,9 @@ pub struct App {
     clock: fn() -> f64,
     times_stages: bool,
     lines: Vec<WireframeLines>,
+    smooth: Vec<SmoothSurface>,
+    /// Time that the picture has been moving for [s]; stands still with reduced motion.
+    time: f32,
     /// Number of rebuilds of the scene. New cloths restart their topology revision, so this number
     /// tells them apart.
     generation: u32,
@@ -75,6 +81,8 @@ impl App {
             clock,
             times_stages: false,
             lines: Vec::new(),
+            smooth: Vec::new(),
+            time: 0.0,
             generation: 0,
         })
     }
@@ -243,6 +251,7 @@ impl App {
             self.meter.record_simulation((self.clock)() - start);
         }
         self.afterglow.fade(seconds);
+        self.pass_time(seconds);
         self.meter.record_frame(seconds);
         self.resolution_scaler.record_frame(seconds);
         Ok(())
@@ -265,6 +274,7 @@ impl App {
         self.scene.step(ticks);
         self.meter.record_simulation((self.clock)() - start);
         self.afterglow.fade(ticks as f32 / 60.0);
+        self.pass_time(ticks as f32 / 60.0);
     }
 
     /// Draws the current state of the scene.
@@ -277,6 +287,7 @@ impl App {
         output: &RenderTarget<'_>,
     ) -> std::result::Result<(), CoreError> {
         self.lines.resize_with(self.scene.cloths.len(), WireframeLines::default);
+        self.smooth.resize_with(self.scene.cloths.len(), SmoothSurface::default);
         let mut seconds = [0.0; Stage::COUNT];
         for (cloth, lines) in self.scene.cloths.iter_mut().zip(&mut self.lines) {
             lines.update(cloth, self.generation);
@@ -300,10 +311,18 @@ impl App {
             appearances: &appearances,
             trail: &self.trail_points,
             wireframe: self.settings.wireframe,
+            time: self.time,
             resolution_scale: self.resolution_scaler.scale(density),
         };
         let start = (self.clock)();
-        surfaces::upload(renderer, &mut self.scene, &self.settings, &self.lines, self.generation);
+        surfaces::upload(
+            renderer,
+            &mut self.scene,
+            &self.settings,
+            &self.lines,
+            &mut self.smooth,
+            self.generation,
+        );
         let uploaded = (self.clock)();
         renderer.draw(&frame, output)?;
         self.meter.record_drawing(uploaded - start, (self.clock)() - uploaded);
@@ -360,6 +379,13 @@ impl App {
         self.pointers.clear();
         self.generation = self.generation.wrapping_add(1);
         Ok(())
+    }
+
+    /// Advances the time of what moves by itself: halos and dust.
+    fn pass_time(&mut self, seconds: f32) {
+        if !self.reduced_motion {
+            self.time = (self.time + seconds) % TIME_PERIOD;
+        }
     }
 
     fn set_clocks(&mut self) {

@@ -199,6 +199,13 @@ impl CameraView {
             * view::look_at_mat4(self.eye, self.target, Vec3::Y)
     }
 
+    /// Returns half the width and height of the picture at a distance of one, for this aspect ratio
+    /// (width over height).
+    pub fn half_extent(&self, aspect: f32) -> Vec2 {
+        let half = (FIELD_OF_VIEW * 0.5).tan();
+        Vec2::new(half * aspect, half)
+    }
+
     /// Returns the unit direction from the eye through a point in normalised device coordinates (y
     /// up).
     pub fn ray(&self, screen: Vec2, aspect: f32) -> Vec3 {

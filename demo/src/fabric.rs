@@ -107,16 +107,16 @@ impl Fabric {
     pub fn appearance(self) -> Appearance {
         match self {
             Self::Silk => Appearance {
-                front: 0x9fb6ff,
-                back: 0xc0c8ff,
-                saturation: 0.72,
+                front: 0x8ea4ee,
+                back: 0xa9baf8,
+                saturation: 0.86,
                 threads: [0xb4c2ff, 0xd6dcff],
                 seam: (0x6f7fbf, 0.30),
                 count: 220.0,
-                relief: [0.15, 0.05],
+                relief: [0.15, 0.03],
                 weave: 0.0,
-                gloss: [0.21, 0.46, 0.15, 1.0],
-                fuzz: 0.20,
+                gloss: [0.14, 0.42, 0.19, 1.3],
+                fuzz: 0.16,
                 transmission: 1.0,
                 print: Print::None,
             },

@@ -3,7 +3,8 @@
 //!
 //! Method: the surfaces borrow the lists of cloths and skins, and are uploaded to the renderer.
 //!
-//! Reads the scene and the links of its cloths; writes the buffers of the renderer.
+//! Reads the scene and the links of its cloths; writes smooth surfaces and the buffers of the
+//! renderer.
 //!
 //! Invariant: surfaces have the order of `scene::appearances`; the clothes of the figure come with
 //! their coarse cloth, which has only lines, for the wireframe.
@@ -18,6 +19,7 @@ use crate::render::{ClothSurface, Renderer};
 use crate::scene;
 use crate::scene_kind::SceneKind;
 use crate::settings::Settings;
+use crate::smooth_surface::SmoothSurface;
 
 /// End points of the links of one cloth, for the wireframe.
 #[derive(Debug, Default)]
@@ -50,6 +52,7 @@ pub fn upload(
     instance: &mut SceneInstance,
     settings: &Settings,
     lines: &[WireframeLines],
+    smooth: &mut [SmoothSurface],
     generation: u32,
 ) {
     let result = instance.update_drawn();
@@ -57,8 +60,8 @@ pub fn upload(
     let (cloths, figure) = instance.parts();
     let mut made: Vec<_> = cloths
         .iter_mut()
-        .zip(lines)
-        .map(|(cloth, lines)| surface(cloth, lines, settings))
+        .zip(lines.iter().zip(smooth))
+        .map(|(cloth, (lines, smooth))| surface(cloth, lines, smooth, settings))
         .collect();
     let Some(body) = figure else {
         renderer.set_cloth_count(made.len());
@@ -88,20 +91,25 @@ pub fn upload(
 fn surface<'a>(
     cloth: &'a mut Cloth,
     lines: &'a WireframeLines,
+    smooth: &'a mut SmoothSurface,
     settings: &Settings,
 ) -> ClothSurface<'a> {
-    let view = cloth.view();
+    let revision = lines.revision.unwrap_or_default();
+    let spacing = scene::spacing(settings);
+    let is_grid = scene::grid_size(settings).is_some();
+    smooth.update(&cloth.view(), spacing, is_grid, revision);
     ClothSurface {
-        positions: view.positions,
+        positions: smooth.positions(),
         unit: scene::unit(settings.scene),
-        normals: view.normals,
-        uvs: view.uvs,
-        frayed: view.frayed,
-        indices: view.indices,
+        normals: smooth.normals(),
+        uvs: smooth.uvs(),
+        frayed: smooth.frayed(),
+        hollows: smooth.hollows(),
+        indices: smooth.indices(),
         lines: &lines.ends,
         span: scene::span(settings),
         is_round: settings.scene == SceneKind::Discs,
-        revision: lines.revision.unwrap_or_default(),
+        revision,
     }
 }
 
@@ -112,6 +120,7 @@ fn skin_surface(skin: &Skin, span: Vec2, generation: u32) -> ClothSurface<'_> {
         normals: skin.normals(),
         uvs: skin.uvs(),
         frayed: skin.frayed(),
+        hollows: &[],
         indices: skin.indices(),
         lines: &[],
         span,
@@ -135,6 +144,7 @@ fn body_surface<'a>(
         normals: drawn.normals(),
         uvs,
         frayed,
+        hollows: &[],
         indices: drawn.indices(),
         lines: &[],
         span: Vec2::ONE,

@@ -46,6 +46,7 @@ impl ReceiptApp {
             normals: view.normals,
             uvs: view.uvs,
             frayed: view.frayed,
+            hollows: &[],
             indices: view.indices,
             lines: &[],
             span,

@@ -3,7 +3,7 @@
 //! Method: a forward pass with `cloth.frag`; the reflection on the floor is a second, mirrored
 //! pass.
 //!
-//! Reads a [`Mesh`], the shadow map, the lights and a fabric [`Appearance`]; writes colour and
+//! Reads a [`Mesh`], the shadow maps of key and rim light, the lights and a fabric [`Appearance`]; writes colour and
 //! depth of the current target.
 //!
 //! Invariant: colours are linear here; [`ClothAlbedo`] converts them from sRGB.
@@ -80,11 +80,11 @@ impl ClothMaterial {
         &self,
         pass: &RenderPass,
         mesh: &Mesh,
-        shadow: &ShadowMap,
+        shadows: [&ShadowMap; 2],
         albedo: &ClothAlbedo,
         dim: f32,
     ) {
-        self.prepare(pass, mesh, shadow, albedo, As::Itself);
+        self.prepare(pass, mesh, shadows, albedo, As::Itself);
         self.program.use_uniform("dim", dim);
         self.program.draw_elements(RenderStates::default(), pass.viewport, &mesh.triangles);
     }
@@ -94,10 +94,10 @@ impl ClothMaterial {
         &self,
         pass: &RenderPass,
         mesh: &Mesh,
-        shadow: &ShadowMap,
+        shadows: [&ShadowMap; 2],
         albedo: &ClothAlbedo,
     ) {
-        self.prepare(pass, mesh, shadow, albedo, As::Reflection);
+        self.prepare(pass, mesh, shadows, albedo, As::Reflection);
         self.program.use_uniform("dim", 1.0_f32);
         let states = RenderStates { blend: REFLECTION_BLEND, ..RenderStates::default() };
         self.program.draw_elements(states, pass.viewport, &mesh.triangles);
@@ -107,7 +107,7 @@ impl ClothMaterial {
         &self,
         pass: &RenderPass,
         mesh: &Mesh,
-        shadow: &ShadowMap,
+        shadows: [&ShadowMap; 2],
         albedo: &ClothAlbedo,
         shown: As,
     ) {
@@ -124,13 +124,17 @@ impl ClothMaterial {
         p.use_uniform("fillColour", to_gl_vector(pass.lights.fill.colour));
         p.use_uniform("rimTowards", to_gl_vector(pass.lights.rim.towards));
         p.use_uniform("rimColour", to_gl_vector(pass.lights.rim.colour));
-        shadow.bind(p, &pass.lights);
+        let [key, rim] = shadows;
+        key.bind(p, &pass.lights);
+        p.use_uniform("rimFromWorld", to_gl_matrix(pass.lights.rim.clip_from_world()));
+        rim.bind_compared(p, "rimMap");
         self.albedo(albedo, mesh.span);
         p.use_uniform("roundHem", if mesh.is_round { 1.0_f32 } else { 0.0 });
         p.use_vertex_attribute("position", &mesh.positions);
         p.use_vertex_attribute("normal", &mesh.normals);
         p.use_vertex_attribute("texcoord", &mesh.uvs);
         p.use_vertex_attribute("frayed", &mesh.frayed);
+        p.use_vertex_attribute("hollow", &mesh.hollows);
     }
 
     fn albedo(&self, albedo: &ClothAlbedo, span: Vec2) {

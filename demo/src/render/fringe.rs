@@ -326,6 +326,7 @@ mod tests {
             normals: view.normals,
             uvs: view.uvs,
             frayed: view.frayed,
+            hollows: &[],
             indices: view.indices,
             lines: &[],
             span: Vec2::ONE,

@@ -23,6 +23,8 @@ pub struct ClothSurface<'a> {
     pub uvs: &'a [Vec2],
     /// Whether a vertex lies on a torn or cut edge.
     pub frayed: &'a [bool],
+    /// How far each vertex lies behind its surroundings, as seen from the front [m]; none means zeros.
+    pub hollows: &'a [f32],
     /// Three vertex indices per triangle.
     pub indices: &'a [u32],
     /// Two vertex indices per line of the wireframe.
@@ -42,12 +44,14 @@ pub struct Mesh {
     pub(super) normals: VertexBuffer<[f32; 3]>,
     pub(super) uvs: VertexBuffer<[f32; 2]>,
     pub(super) frayed: VertexBuffer<f32>,
+    pub(super) hollows: VertexBuffer<f32>,
     pub(super) triangles: ElementBuffer<u32>,
     pub(super) lines: ElementBuffer<u32>,
     pub(super) span: Vec2,
     pub(super) is_round: bool,
     revision: Option<u64>,
     staging: Vec<[f32; 3]>,
+    depths: Vec<f32>,
 }
 
 impl Mesh {
@@ -58,12 +62,14 @@ impl Mesh {
             normals: VertexBuffer::new(context),
             uvs: VertexBuffer::new(context),
             frayed: VertexBuffer::new(context),
+            hollows: VertexBuffer::new(context),
             triangles: ElementBuffer::new(context),
             lines: ElementBuffer::new(context),
             span: Vec2::ONE,
             is_round: false,
             revision: None,
             staging: Vec::new(),
+            depths: Vec::new(),
         }
     }
 
@@ -77,6 +83,11 @@ impl Mesh {
         };
         upload(&mut self.positions, surface.positions, surface.unit.recip());
         upload(&mut self.normals, surface.normals, 1.0);
+        let depths = surface.hollows.iter().map(|depth| depth / surface.unit);
+        self.depths.clear();
+        self.depths.extend(depths);
+        self.depths.resize(surface.positions.len(), 0.0);
+        self.hollows.fill(&self.depths);
         self.span = surface.span;
         self.is_round = surface.is_round;
         if self.revision != Some(surface.revision) {

@@ -1,4 +1,4 @@
-//! Shadow map of the key light: a depth texture with hardware comparison and filtering.
+//! Shadow map of a light: a depth texture with hardware comparison and filtering.
 //!
 //! Method: depth-only pass from the light, then percentage-closer filtering in `light.glsl`
 //! (Reeves, Salesin, Cook, SIGGRAPH 1987).
@@ -72,6 +72,12 @@ impl ShadowMap {
         program.use_uniform("keyTowards", to_gl_vector(key.towards));
         program.use_uniform("keyColour", to_gl_vector(key.colour));
         program.use_depth_texture("shadowMap", &self.map);
+        enable_depth_compare(&self.context);
+    }
+
+    /// Binds the map alone, with comparison, to a sampler.
+    pub(super) fn bind_compared(&self, program: &Program, name: &str) {
+        program.use_depth_texture(name, &self.map);
         enable_depth_compare(&self.context);
     }
 

@@ -8,6 +8,32 @@ uniform vec3 keyColour;
 uniform mat4 shadowFromWorld;
 uniform sampler2DShadow shadowMap;
 
+// Point `i` of `n` on the unit disc, in a golden-angle spiral (Vogel, 1979) that starts at `turn`.
+vec2 vogel(int i, int n, float turn) {
+    float angle = 2.39996323 * float(i) + turn;
+    return sqrt((float(i) + 0.5) / float(n)) * vec2(cos(angle), sin(angle));
+}
+
+// Visibility of the key light through a disc of `radius` in the shadow map, around the projected
+// point `s`. Each pixel turns the disc by gradient noise (Jimenez, SIGGRAPH 2014), so that no steps
+// show.
+float softVisibility(vec3 s, float radius, float bias) {
+    vec2 border = min(s.xy, 1.0 - s.xy);
+    if (min(border.x, border.y) <= 0.0 || s.z >= 1.0) return 1.0;
+    float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    float lit = 0.0;
+    for (int i = 0; i < 24; i++) {
+        lit += texture(shadowMap, vec3(s.xy + radius * vogel(i, 24, turn), s.z - bias));
+    }
+    return mix(1.0, lit / 24.0, smoothstep(0.0, 0.06, min(border.x, border.y)));
+}
+
+// Radiance that a pixel may have: brighter samples would outweigh the others in the resolve and
+// leave stairs.
+vec3 limited(vec3 light) {
+    return clamp(light, 0.0, 3.5);
+}
+
 // Visibility of the key light: percentage-closer filter with a tent of (2n+1)² taps, `spread` texels apart.
 // Each tap is bilinear over four texels, so there are no gaps up to a spread of two texels.
 float keyVisibility(vec3 at, int n, float spread, float bias) {

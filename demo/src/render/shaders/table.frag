@@ -36,8 +36,7 @@ void main() {
     if (far > 0.0) {
         // Penumbra: the farther the occluder, the softer the shadow.
         float soft = clamp(0.012 + 0.045 * far, 0.014, 0.30);
-        float texels = soft / (2.0 * radius) * float(textureSize(shadowMap, 0).x) / 3.0;
-        lit = keyVisibility(at, 3, max(texels, 0.6), 0.0002);
+        lit = softVisibility((shadowFromWorld * vec4(at, 1.0)).xyz * 0.5 + 0.5, soft / (2.0 * radius), 0.0002);
     }
     float open = 1.0;
     if (length(at - middle) < radius + 2.0) {

@@ -31,10 +31,11 @@ float noise(vec2 p) {
 }
 
 // Bump of the surface along weft and warp: crossing threads, and uneven yarn (slub). Both fade out
-// before they alias.
-vec2 weave(vec2 m, float footprint) {
+// before they alias; `unseen` returns the variance of the slopes that have faded.
+vec2 weave(vec2 m, float footprint, out float unseen) {
     vec2 t = m * cloth.x;
     float near = 1.0 - smoothstep(0.24, 0.56, footprint * cloth.x);
+    unseen = 0.25 * cloth.y * cloth.y * (1.0 - near);
     vec2 bump = vec2(0.0);
     if (near > 0.0) {
         if (cloth.w == 1.0) {
@@ -54,7 +55,7 @@ vec2 weave(vec2 m, float footprint) {
         vec2 cell = fract(m / 0.009) - 0.5;
         bump += fine * 0.25 * cell * exp(-cell * cell * 160.0) * 12.0;
     }
-    float fine = 1.0 - smoothstep(0.2, 0.7, footprint * 65.0);
+    float fine = 1.0 - smoothstep(0.05, 0.25, footprint * 65.0);
     vec2 slub = vec2(
         noise(vec2(m.x * 65.0, m.y * 2.5)) - 0.5,
         noise(vec2(m.x * 2.0 + 71.0, m.y * 65.0)) - 0.5);
