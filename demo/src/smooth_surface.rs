@@ -54,6 +54,7 @@ pub struct SmoothSurface {
     frayed: Vec<bool>,
     hollows: Vec<f32>,
     indices: Vec<u32>,
+    coarse_indices: Vec<u32>,
 }
 
 impl SmoothSurface {
@@ -105,6 +106,11 @@ impl SmoothSurface {
         &self.indices
     }
 
+    /// Returns three vertex indices per triangle of the cloth.
+    pub fn coarse_indices(&self) -> &[u32] {
+        &self.coarse_indices
+    }
+
     /// Rebuilds all that follows from the triangles.
     fn rebuild(&mut self, view: &View<'_>, is_grid: bool) {
         let coarse = view.positions.len() as u32;
@@ -124,6 +130,8 @@ impl SmoothSurface {
         self.frayed.clear();
         self.indices.clear();
         self.middles.clear();
+        self.coarse_indices.clear();
+        self.coarse_indices.extend_from_slice(view.indices);
         self.uvs.extend_from_slice(view.uvs);
         self.frayed.extend_from_slice(view.frayed);
         self.is_refined = view.positions.len() <= MAX_REFINED;

@@ -79,7 +79,7 @@ pub fn upload(
         body_surface(body, &uvs, &frayed, generation),
     ];
     if settings.wireframe {
-        made.iter_mut().for_each(|cloth| cloth.indices = &[]);
+        made.iter_mut().for_each(|cloth| (cloth.indices, cloth.coarse_indices) = (&[], &[]));
         surfaces.append(&mut made);
     }
     renderer.set_cloth_count(surfaces.len());
@@ -106,6 +106,7 @@ fn surface<'a>(
         frayed: smooth.frayed(),
         hollows: smooth.hollows(),
         indices: smooth.indices(),
+        coarse_indices: smooth.coarse_indices(),
         lines: &lines.ends,
         span: scene::span(settings),
         is_round: settings.scene == SceneKind::Discs,
@@ -122,6 +123,7 @@ fn skin_surface(skin: &Skin, span: Vec2, generation: u32) -> ClothSurface<'_> {
         frayed: skin.frayed(),
         hollows: &[],
         indices: skin.indices(),
+        coarse_indices: &[],
         lines: &[],
         span,
         is_round: false,
@@ -146,6 +148,7 @@ fn body_surface<'a>(
         frayed,
         hollows: &[],
         indices: drawn.indices(),
+        coarse_indices: &[],
         lines: &[],
         span: Vec2::ONE,
         is_round: false,

@@ -48,6 +48,7 @@ impl ReceiptApp {
             frayed: view.frayed,
             hollows: &[],
             indices: view.indices,
+            coarse_indices: &[],
             lines: &[],
             span,
             is_round: false,

@@ -12,7 +12,7 @@ use glam::{Vec2, Vec3};
 use three_d::{Context, CoreError, Program, RenderStates};
 
 use super::light::{FLOOR, linear};
-use super::mesh::Mesh;
+use super::mesh::{Detail, Mesh};
 use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 use crate::fabric::Appearance;
@@ -86,7 +86,11 @@ impl ClothMaterial {
     ) {
         self.prepare(pass, mesh, shadows, albedo, As::Itself);
         self.program.use_uniform("dim", dim);
-        self.program.draw_elements(RenderStates::default(), pass.viewport, &mesh.triangles);
+        self.program.draw_elements(
+            RenderStates::default(),
+            pass.viewport,
+            mesh.triangles(Detail::Full),
+        );
     }
 
     /// Draws the mirror image below the floor; the floor is blended over it later.
@@ -100,7 +104,7 @@ impl ClothMaterial {
         self.prepare(pass, mesh, shadows, albedo, As::Reflection);
         self.program.use_uniform("dim", 1.0_f32);
         let states = RenderStates { blend: REFLECTION_BLEND, ..RenderStates::default() };
-        self.program.draw_elements(states, pass.viewport, &mesh.triangles);
+        self.program.draw_elements(states, pass.viewport, mesh.triangles(Detail::Coarse));
     }
 
     fn prepare(

@@ -328,6 +328,7 @@ mod tests {
             frayed: view.frayed,
             hollows: &[],
             indices: view.indices,
+            coarse_indices: &[],
             lines: &[],
             span: Vec2::ONE,
             is_round: false,

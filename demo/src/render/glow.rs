@@ -7,7 +7,6 @@
 //!
 //! Invariant: the falloff is zero at the border, so that the quad is not visible.
 
-use glam::Vec3;
 use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
 
 use super::halo::Halo;
@@ -36,7 +35,7 @@ impl Glow {
     pub(super) fn draw(&self, pass: &RenderPass, quad: &UnitQuad, halos: &[Halo]) {
         let p = &self.program;
         let (right, up) = (pass.view.right(), pass.view.up());
-        for halo in halos.iter().filter(|halo| halo.tint != Vec3::ZERO) {
+        for halo in halos {
             p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
             p.use_uniform("centre", to_gl_vector(halo.centre));
             p.use_uniform("right", to_gl_vector(right * halo.radius));

@@ -12,7 +12,7 @@
 use glam::Vec3;
 use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
 
-use super::halo::{COUNT, Halo};
+use super::halo::{Halo, LAMPS};
 use super::light::{FLOOR, STAGE_CENTRE, STAGE_DEPTH, STAGE_RADIUS};
 use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
@@ -52,7 +52,7 @@ impl Ground {
         shadow: &ShadowMap,
         depths: &ShadowMap,
         solids: &[Solid],
-        halos: &[Halo; COUNT],
+        halos: &[Halo],
     ) {
         let p = &self.program;
         p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
@@ -65,13 +65,14 @@ impl Ground {
         p.use_uniform("rimColour", to_gl_vector(pass.lights.rim.colour));
         p.use_uniform("depthRange", STAGE_DEPTH.end - STAGE_DEPTH.start);
         p.use_uniform("radius", STAGE_RADIUS);
-        p.use_uniform_array("feet", &feet(solids).map(to_gl_vector));
-        let spheres = halos.map(|halo| {
-            let [x, y, z] = halo.centre.to_array();
-            three_d::Vec4::new(x, y, z, halo.radius)
-        });
-        p.use_uniform_array("halos", &spheres);
-        p.use_uniform_array("haloTints", &halos.map(|halo| to_gl_vector(halo.tint)));
+        let feet = feet(solids);
+        p.use_uniform("footCount", feet.len() as i32);
+        p.use_uniform_array("feet", &padded::<MAX_FEET, _>(feet.iter().copied()).map(to_gl_vector));
+        let spheres = halos.iter().map(|halo| halo.centre.extend(halo.radius).to_array());
+        p.use_uniform("haloCount", halos.len() as i32);
+        p.use_uniform_array("halos", &padded::<LAMPS, _>(spheres).map(three_d::Vec4::from));
+        let tints = halos.iter().map(|halo| halo.tint);
+        p.use_uniform_array("haloTints", &padded::<LAMPS, _>(tints).map(to_gl_vector));
         depths.bind_depths(p, "depths");
         shadow.bind(p, &pass.lights);
         let states = RenderStates {
@@ -83,8 +84,13 @@ impl Ground {
     }
 }
 
-/// Returns x, z and radius of the largest solids that stand on the floor [m]; zeros for the rest.
-fn feet(solids: &[Solid]) -> [Vec3; MAX_FEET] {
+/// Returns `values`, and defaults up to the length that the shader declares.
+fn padded<const N: usize, T: Default>(mut values: impl Iterator<Item = T>) -> [T; N] {
+    std::array::from_fn(|_| values.next().unwrap_or_default())
+}
+
+/// Returns x, z and radius of the largest solids that stand on the floor [m].
+fn feet(solids: &[Solid]) -> Vec<Vec3> {
     let lowest = |solid: &Solid| solid.from.y.min(solid.to.y) - solid.bevel.unwrap_or(0.0);
     let stands = |solid: &&Solid| lowest(solid) < FLOOR + STANDING;
     let mut feet: Vec<_> = solids
@@ -93,8 +99,8 @@ fn feet(solids: &[Solid]) -> [Vec3; MAX_FEET] {
         .map(|solid| Vec3::new(solid.from.x, solid.from.z, solid.radius))
         .collect();
     feet.sort_by(|a, b| b.z.total_cmp(&a.z));
-    feet.resize(MAX_FEET, Vec3::ZERO);
-    std::array::from_fn(|i| feet[i])
+    feet.truncate(MAX_FEET);
+    feet
 }
 
 #[cfg(test)]
@@ -110,6 +116,6 @@ mod tests {
             Solid::capsule(floor, Vec3::ZERO, 0.3, 0),
         ];
         let feet = feet(&solids);
-        assert_eq!(feet[..3], [Vec3::Z * 0.3, Vec3::new(1.0, 0.0, 0.2), Vec3::ZERO]);
+        assert_eq!(feet, [Vec3::Z * 0.3, Vec3::new(1.0, 0.0, 0.2)]);
     }
 }

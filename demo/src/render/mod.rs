@@ -39,6 +39,7 @@ use cloth_material::ClothAlbedo;
 use hdr_target::HdrTarget;
 use light::Light;
 pub use mesh::ClothSurface;
+use mesh::Detail;
 use pass::{RenderPass, UnitQuad};
 
 /// The contents of a frame, except for the cloths.
@@ -89,11 +90,11 @@ struct ClothBuffers {
 }
 
 /// Size of the key light's shadow map [texels].
-const KEY_SHADOW_SIZE: u32 = 2048;
+const KEY_SHADOW_SIZE: u32 = 1536;
 /// Size of the coarse depth map that measures how far shadows fall on the floor [texels].
 const COARSE_SHADOW_SIZE: u32 = 256;
 /// Size of the rim light's shadow map [texels].
-const RIM_SHADOW_SIZE: u32 = 1024;
+const RIM_SHADOW_SIZE: u32 = 512;
 
 impl Renderer {
     /// Compiles the shaders and creates the textures.
@@ -152,10 +153,14 @@ impl Renderer {
         let (width, height) = (side(output.width()), side(output.height()));
         HdrTarget::resize(&mut self.target, &self.context, width, height);
         let [key, rim] = [&self.lights.key, &self.lights.rim].map(Light::clip_from_world);
-        let maps = [(&self.shadow, key), (&self.coarse_shadow, key), (&self.rim_shadow, rim)];
-        for (shadow, clip) in maps {
+        let maps = [
+            (&self.shadow, key, Detail::Full),
+            (&self.coarse_shadow, key, Detail::Coarse),
+            (&self.rim_shadow, rim, Detail::Coarse),
+        ];
+        for (shadow, clip, detail) in maps {
             let meshes = self.cloths.iter().map(|cloth| &cloth.mesh);
-            shadow.draw(meshes, clip, |viewport| {
+            shadow.draw(meshes, clip, detail, |viewport| {
                 self.solids.draw_depth(clip, viewport, frame.solids);
             })?;
         }

@@ -16,7 +16,7 @@ use three_d::{
 };
 
 use super::light::{Light, Lights};
-use super::mesh::Mesh;
+use super::mesh::{Detail, Mesh};
 use super::pass::{to_gl_matrix, to_gl_vector};
 
 /// Depth texture of one light, and the program that fills it.
@@ -48,12 +48,13 @@ impl ShadowMap {
         &self,
         meshes: impl Iterator<Item = &'a Mesh>,
         clip: Mat4,
+        detail: Detail,
         draw_others: impl Fn(Viewport),
     ) -> Result<(), CoreError> {
         self.map.as_depth_target().clear(ClearState::depth(1.0)).write::<CoreError>(|| {
             let viewport = Viewport::new_at_origo(self.map.width(), self.map.height());
             for mesh in meshes {
-                self.depths.draw(mesh, clip, viewport);
+                self.depths.draw(mesh, clip, detail, viewport);
             }
             draw_others(viewport);
             Ok(())
@@ -102,11 +103,11 @@ impl DepthProgram {
     }
 
     /// Draws a cloth into the part of a depth map that `viewport` covers.
-    pub fn draw(&self, mesh: &Mesh, clip: Mat4, viewport: Viewport) {
+    pub fn draw(&self, mesh: &Mesh, clip: Mat4, detail: Detail, viewport: Viewport) {
         self.0.use_uniform("shadowFromWorld", to_gl_matrix(clip));
         self.0.use_vertex_attribute("position", &mesh.positions);
         let states = RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() };
-        self.0.draw_elements(states, viewport, &mesh.triangles);
+        self.0.draw_elements(states, viewport, mesh.triangles(detail));
     }
 }
 

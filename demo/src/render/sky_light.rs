@@ -11,7 +11,7 @@ use glam::{Mat4, Vec3};
 use three_d::{ClearState, Context, CoreError, DepthTexture2D, Program, Viewport};
 
 use super::light::Light;
-use super::mesh::Mesh;
+use super::mesh::{Detail, Mesh};
 use super::pass::{to_gl_matrix, to_gl_vector};
 use super::shadow::{DepthProgram, depth_map, enable_depth_compare};
 
@@ -64,7 +64,7 @@ impl SkyLight {
                     width: TEXELS,
                     height: TEXELS,
                 };
-                self.depths.draw(mesh, clip, viewport);
+                self.depths.draw(mesh, clip, Detail::Full, viewport);
             }
             Ok(())
         })?;

@@ -10,8 +10,10 @@ uniform vec3 rimColour;
 uniform sampler2D depths;  // coarse depth map of the key light
 uniform float depthRange;  // depth of its volume [m]
 uniform float radius;      // half the width of its volume [m]
+uniform int haloCount;
 uniform vec4 halos[6];     // centre [m] and radius [m]
 uniform vec3 haloTints[6];
+uniform int footCount;
 uniform vec3 feet[8];      // x, z and radius of solids that stand on the floor [m]
 in vec3 at;
 layout (location = 0) out vec4 colour;
@@ -40,9 +42,9 @@ void main() {
     if (away > 0.0) lit = softVisibility(s, clamp(LAMP * away, 0.012, 0.34) * 0.5 / radius, 0.0010);
     // Solids that stand on the floor darken it around their feet.
     float contact = 1.0;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < footCount; i++) {
         float far = max(length(at.xz - feet[i].xy) - feet[i].z, 0.0);
-        contact *= 1.0 - step(0.001, feet[i].z) * 0.75 * exp(-far / (0.03 + 0.25 * feet[i].z));
+        contact *= 1.0 - 0.75 * exp(-far / (0.03 + 0.25 * feet[i].z));
     }
     vec2 p = at.xz - centre.xz;
     float r2 = dot(p, p);
@@ -57,7 +59,7 @@ void main() {
     vec3 mirror = reflect(-v, vec3(0.0, 1.0, 0.0));
     float fresnel = 0.06 + 0.94 * pow(1.0 - clamp(v.y, 0.0, 1.0), 5.0);
     light += rimColour * pow(max(dot(mirror, rimTowards), 0.0), 14.0) * 0.04 * pool;
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < haloCount; i++) {
         vec3 to = halos[i].xyz - at;
         vec3 off = to - mirror * max(dot(to, mirror), 0.0);
         light += haloTints[i] * exp(-dot(off, off) * 5.0 / (halos[i].w * halos[i].w)) * (0.2 + 0.8 * fresnel) * 0.55;
