@@ -16,7 +16,7 @@ use muslin_scenes::SceneInstance;
 use three_d::{CoreError, RenderTarget};
 
 use crate::afterglow::Afterglow;
-use crate::camera::Camera;
+use crate::camera::{Camera, FreeArea};
 use crate::controls::{self, Action, Kind};
 use crate::meter::{Meter, Readout, ResolutionScaler, StageTime};
 use crate::picking::{PickContext, Screen};
@@ -44,6 +44,10 @@ pub struct App {
     afterglow: Afterglow,
     trail_points: Vec<TrailPoint>,
     screen: Screen,
+    /// How far overlays reach into the screen from left, top, right and bottom [px].
+    insets: [f32; 4],
+    /// Whether the size of the screen is known and the camera fits it.
+    is_fitted: bool,
     reduced_motion: bool,
     meter: Meter,
     resolution_scaler: ResolutionScaler,
@@ -66,8 +70,10 @@ impl App {
     /// As [`scene::build`].
     pub fn new(mut settings: Settings, clock: fn() -> f64) -> Result<Self> {
         settings.clamp();
+        let mut scene = scene::build(&settings, false)?;
+        scene::settle(&mut scene, &settings, false)?;
         Ok(Self {
-            scene: scene::build(&settings, false)?,
+            scene,
             camera: Camera::new(scene::camera_rig(settings.scene)),
             settings,
             pointers: Pointers::default(),
@@ -75,6 +81,8 @@ impl App {
             afterglow: Afterglow::default(),
             trail_points: Vec::new(),
             screen: Screen { size: Vec2::new(1280.0, 720.0) },
+            insets: [0.0; 4],
+            is_fitted: false,
             reduced_motion: false,
             meter: Meter::default(),
             resolution_scaler: ResolutionScaler::default(),
@@ -174,9 +182,23 @@ impl App {
 
     /// Sets the size of the screen, in logical pixels.
     pub fn resize(&mut self, size: Vec2) {
-        if size.is_finite() && size.min_element() >= 1.0 && size != self.screen.size {
+        if size.is_finite()
+            && size.min_element() >= 1.0
+            && (size != self.screen.size || !self.is_fitted)
+        {
             self.screen.size = size;
+            self.is_fitted = true;
+            self.camera.set_free_area(FreeArea::from_insets(self.insets, size));
             self.camera.fit_to_aspect(self.screen.aspect());
+        }
+    }
+
+    /// Sets how far overlays reach into the screen from left, top, right and bottom, in logical
+    /// pixels.
+    pub fn set_insets(&mut self, insets: [f32; 4]) {
+        if insets != self.insets {
+            self.insets = insets;
+            self.camera.set_free_area(FreeArea::from_insets(insets, self.screen.size));
         }
     }
 
@@ -320,7 +342,7 @@ impl App {
             &mut self.scene,
             &self.settings,
             &self.lines,
-            &mut self.smooth,
+            (&mut self.smooth, !self.resolution_scaler.is_low()),
             self.generation,
         );
         let uploaded = (self.clock)();
@@ -372,6 +394,7 @@ impl App {
 
     fn rebuild_scene(&mut self, settings: &Settings) -> Result<()> {
         self.scene = scene::build(settings, self.reduced_motion)?;
+        scene::settle(&mut self.scene, settings, self.reduced_motion)?;
         self.set_clocks();
         if settings.scene != self.settings.scene {
             self.camera.reset_to_rig(scene::camera_rig(settings.scene), self.screen.aspect());

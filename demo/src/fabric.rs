@@ -107,15 +107,15 @@ impl Fabric {
     pub fn appearance(self) -> Appearance {
         match self {
             Self::Silk => Appearance {
-                front: 0x8ea4ee,
-                back: 0xa9baf8,
-                saturation: 0.86,
+                front: 0x7f9af5,
+                back: 0xa0b4fa,
+                saturation: 0.95,
                 threads: [0xb4c2ff, 0xd6dcff],
                 seam: (0x6f7fbf, 0.30),
                 count: 220.0,
                 relief: [0.15, 0.03],
                 weave: 0.0,
-                gloss: [0.14, 0.42, 0.19, 1.3],
+                gloss: [0.13, 0.42, 0.16, 1.3],
                 fuzz: 0.16,
                 transmission: 1.0,
                 print: Print::None,
@@ -135,7 +135,7 @@ impl Fabric {
                 print: Print::None,
             },
             Self::Denim => Appearance {
-                front: 0x3d5283,
+                front: 0x4a639c,
                 back: 0xb4bfd2,
                 saturation: 1.0,
                 threads: [0x3d5fa8, 0xd9dde6],

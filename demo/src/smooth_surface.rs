@@ -37,10 +37,21 @@ enum Middle {
     Curved([u32; 2]),
 }
 
+/// How a cloth is to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weave {
+    /// Distance between neighbouring particles [m].
+    pub spacing: f32,
+    /// Whether the edges of the mesh follow threads.
+    pub is_grid: bool,
+    /// Whether to make the mesh finer.
+    pub refine: bool,
+}
+
 /// A cloth as it is drawn.
 #[derive(Debug, Default)]
 pub struct SmoothSurface {
-    revision: Option<u64>,
+    built_for: Option<(u64, Weave)>,
     /// Edges of the cloth, sorted; edge `i` has the vertex `coarse + i`.
     edges: Vec<[u32; 2]>,
     middles: Vec<Middle>,
@@ -58,14 +69,14 @@ pub struct SmoothSurface {
 }
 
 impl SmoothSurface {
-    /// Updates the surface to the present state of a cloth. `spacing` is the distance between
-    /// neighbouring particles [m], `is_grid` says whether threads follow the edges of the mesh.
-    pub fn update(&mut self, view: &View<'_>, spacing: f32, is_grid: bool, revision: u64) {
-        if self.revision != Some(revision) {
-            self.revision = Some(revision);
-            self.rebuild(view, is_grid);
+    /// Updates the surface to the present state of a cloth, as `weave` describes it; `revision`
+    /// changes with its triangles.
+    pub fn update(&mut self, view: &View<'_>, weave: Weave, revision: u64) {
+        if self.built_for != Some((revision, weave)) {
+            self.built_for = Some((revision, weave));
+            self.rebuild(view, weave);
         }
-        self.measure_folds(view, spacing);
+        self.measure_folds(view, weave.spacing);
         self.positions.clear();
         self.normals.clear();
         self.positions.extend_from_slice(view.positions);
@@ -112,7 +123,7 @@ impl SmoothSurface {
     }
 
     /// Rebuilds all that follows from the triangles.
-    fn rebuild(&mut self, view: &View<'_>, is_grid: bool) {
+    fn rebuild(&mut self, view: &View<'_>, weave: Weave) {
         let coarse = view.positions.len() as u32;
         self.edges.clear();
         for [a, b, c] in triangles(view.indices) {
@@ -134,7 +145,7 @@ impl SmoothSurface {
         self.coarse_indices.extend_from_slice(view.indices);
         self.uvs.extend_from_slice(view.uvs);
         self.frayed.extend_from_slice(view.frayed);
-        self.is_refined = view.positions.len() <= MAX_REFINED;
+        self.is_refined = weave.refine && view.positions.len() <= MAX_REFINED;
         if !self.is_refined {
             self.indices.extend_from_slice(view.indices);
             return;
@@ -145,7 +156,7 @@ impl SmoothSurface {
             self.frayed.push(sides == 1 && view.frayed[a] && view.frayed[b]);
         }
         self.middles.extend(self.edges.iter().map(|ends| Middle::Curved(*ends)));
-        if is_grid {
+        if weave.is_grid {
             self.find_threads(view);
         }
         for [a, b, c] in triangles(view.indices) {
@@ -184,10 +195,16 @@ impl SmoothSurface {
             }
         }
         for (i, [c, d]) in others.into_iter().enumerate() {
-            if matches!(self.middles[i], Middle::Curved(_)) && d != NONE {
-                let [a, b] = self.edges[i];
-                let [p, q, r, s] =
-                    [[a, c], [c, b], [b, d], [d, a]].map(|edge| self.middle_of(coarse, edge));
+            if !matches!(self.middles[i], Middle::Curved(_)) || d == NONE {
+                continue;
+            }
+            let [a, b] = self.edges[i];
+            let sides = [[a, c], [c, b], [b, d], [d, a]].map(|edge| self.middle_of(coarse, edge));
+            // Beside a cut, cells are not whole.
+            let is_thread =
+                |side: &u32| matches!(self.middles[(*side - coarse) as usize], Middle::Thread(_));
+            if sides.iter().all(is_thread) {
+                let [p, q, r, s] = sides;
                 self.middles[i] = Middle::Cell([a, b, c, d, p, q, r, s]);
             }
         }
@@ -304,7 +321,8 @@ mod tests {
 
     fn smooth(cloth: &mut Cloth, is_grid: bool) -> SmoothSurface {
         let mut smooth = SmoothSurface::default();
-        smooth.update(&cloth.view(), 0.1, is_grid, 1);
+        let weave = Weave { spacing: 0.1, is_grid, refine: true };
+        smooth.update(&cloth.view(), weave, 1);
         smooth
     }
 
@@ -373,6 +391,22 @@ mod tests {
     }
 
     #[test]
+    fn beside_a_cut_no_middle_is_far_from_its_edge() {
+        let mut cloth = cloth(|at| at).unwrap();
+        let middle = cloth.positions()[40];
+        let [from, to] = [Vec3::new(-0.9, 0.13, -1.0), Vec3::new(0.31, -0.22, -1.0)];
+        cloth.cut(middle + from, middle + to, Vec3::Z * 2.0).unwrap();
+        let surface = smooth(&mut cloth, true);
+        let count = cloth.positions().len();
+        assert!(count > 90, "{count} vertices: nothing is cut");
+        for (middle, ends) in surface.positions()[count..].iter().zip(&surface.edges) {
+            let [a, b] = ends.map(|i| cloth.positions()[i as usize]);
+            let far = middle.distance(0.5 * (a + b));
+            assert!(far < 0.3 * a.distance(b), "{middle} is {far} m off the middle of {a} and {b}");
+        }
+    }
+
+    #[test]
     fn a_tear_does_not_bend_the_surface_of_its_sides() {
         // Two strips of three vertices with a gap; the texture coordinates go on across it.
         let column = [0.0, 1.0, 2.0, 2.0, 3.0, 4.0];
@@ -405,7 +439,7 @@ mod tests {
             state_revision: 1,
         };
         let mut surface = SmoothSurface::default();
-        surface.update(&view, 1.0, true, 1);
+        surface.update(&view, Weave { spacing: 1.0, is_grid: true, refine: true }, 1);
         assert!(surface.positions().iter().all(|at| at.z == 0.0 || at.z == 5.0));
         let torn = surface.frayed()[12..].iter().filter(|torn| **torn).count();
         assert_eq!(torn, 2, "one middle on each side of the tear");

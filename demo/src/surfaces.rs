@@ -19,7 +19,7 @@ use crate::render::{ClothSurface, Renderer};
 use crate::scene;
 use crate::scene_kind::SceneKind;
 use crate::settings::Settings;
-use crate::smooth_surface::SmoothSurface;
+use crate::smooth_surface::{SmoothSurface, Weave};
 
 /// End points of the links of one cloth, for the wireframe.
 #[derive(Debug, Default)]
@@ -46,13 +46,13 @@ fn joined(generation: u32, revision: u32) -> u64 {
     (u64::from(generation) << 32) | u64::from(revision)
 }
 
-/// Uploads every surface of the scene.
+/// Uploads every surface of the scene; `refine` says whether cloths are made finer for it.
 pub fn upload(
     renderer: &mut Renderer,
     instance: &mut SceneInstance,
     settings: &Settings,
     lines: &[WireframeLines],
-    smooth: &mut [SmoothSurface],
+    (smooth, refine): (&mut [SmoothSurface], bool),
     generation: u32,
 ) {
     let result = instance.update_drawn();
@@ -61,7 +61,7 @@ pub fn upload(
     let mut made: Vec<_> = cloths
         .iter_mut()
         .zip(lines.iter().zip(smooth))
-        .map(|(cloth, (lines, smooth))| surface(cloth, lines, smooth, settings))
+        .map(|(cloth, (lines, smooth))| surface(cloth, lines, (smooth, refine), settings))
         .collect();
     let Some(body) = figure else {
         renderer.set_cloth_count(made.len());
@@ -91,13 +91,13 @@ pub fn upload(
 fn surface<'a>(
     cloth: &'a mut Cloth,
     lines: &'a WireframeLines,
-    smooth: &'a mut SmoothSurface,
+    (smooth, refine): (&'a mut SmoothSurface, bool),
     settings: &Settings,
 ) -> ClothSurface<'a> {
     let revision = lines.revision.unwrap_or_default();
     let spacing = scene::spacing(settings);
-    let is_grid = scene::grid_size(settings).is_some();
-    smooth.update(&cloth.view(), spacing, is_grid, revision);
+    let weave = Weave { spacing, is_grid: scene::grid_size(settings).is_some(), refine };
+    smooth.update(&cloth.view(), weave, revision);
     ClothSurface {
         positions: smooth.positions(),
         unit: scene::unit(settings.scene),

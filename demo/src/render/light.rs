@@ -46,7 +46,7 @@ pub struct Lights {
 impl Default for Lights {
     fn default() -> Self {
         Self {
-            key: Light::new(Vec3::new(-1.0, 1.25, 1.05), 0xffe6c8, 2.5),
+            key: Light::new(Vec3::new(-1.0, 1.25, 1.05), 0xffead2, 2.3),
             fill: Light::new(Vec3::new(1.2, 0.25, 0.8), 0x829aff, 0.36),
             rim: Light::new(Vec3::new(0.85, 0.75, -1.25), 0xff8a50, 2.4),
         }

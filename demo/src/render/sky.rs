@@ -37,6 +37,7 @@ impl Sky {
         p.use_uniform("highColour", to_gl_vector(invert_tone_curve(0x0b1020)));
         let half = pass.view.half_extent(pass.aspect());
         p.use_uniform("forward", to_gl_vector(pass.view.forward()));
+        p.use_uniform("shift", three_d::Vec2::new(pass.view.shift.x, pass.view.shift.y));
         p.use_uniform("across", to_gl_vector(pass.view.right() * half.x));
         p.use_uniform("upward", to_gl_vector(pass.view.up() * half.y));
         let states = RenderStates {

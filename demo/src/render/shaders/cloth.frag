@@ -109,6 +109,8 @@ void main() {
     float open = exp(-max(fold, 0.0) / 0.020);
     vec3 openTint = open / (1.0 - albedo * (1.0 - open));
     float ridge = clamp(-fold / 0.030, 0.0, 1.0);
+    // Denim is worn on its ridges.
+    if (cloth.w == 1.0) albedo = mix(albedo, vec3(0.42, 0.47, 0.56), 0.28 * ridge);
 
     vec3 light = vec3(0.0);
     // Key light: diffuse, two specular lobes and sheen on the lit face; transmission on the other.
@@ -119,11 +121,11 @@ void main() {
     float broad = satin(n, t, b, keyTowards, v, min(2.6 * width, 0.9));
     float shine = gloss.z * (1.0 - 0.6 * undone);
     light += key * albedo * max(nl, 0.0) / PI;
-    light += key * shine * (sharp * mix(vec3(1.0), thread, 0.25) + 0.9 * broad * thread);
+    light += key * shine * (sharp * mix(vec3(1.0), thread, 0.25) + 0.8 * broad * thread);
     light += key * max(nl, 0.0) * (fibres.x + 0.12 * undone) * mix(vec3(1.0), thread, 0.5) * fuzz(dot(n, h), max(nl, 0.0), nv);
     vec3 tint = fibres.y * (1.0 + 0.4 * undone) * (1.0 - 0.35 * hem) * albedo * mix(vec3(1.0), albedo, 0.6);
     float through = 0.55 * max(-nl, 0.0) + 0.9 * pow(max(dot(-v, keyTowards), 0.0), 4.0) * step(0.0, -nl);
-    light += keyColour * lit * through * tint;
+    light += keyColour * lit * through * tint * mix(0.4, 1.0, open);
 
     // The fill light casts no shadow; folds occlude it.
     float fl = max((dot(n, fillTowards) + 0.25) / 1.25, 0.0);
@@ -131,7 +133,7 @@ void main() {
     float rl = dot(n, rimTowards);
     vec3 rim = rimColour * rimVisibility(at + smoothN * (dot(smoothN, rimTowards) >= 0.0 ? 0.02 : -0.02));
     float edge = pow(1.0 - nv, 3.0);
-    light += rim * (albedo * max(rl, 0.0) / PI + 0.45 * edge * smoothstep(-0.2, 0.6, rl));
+    light += rim * (albedo * max(rl, 0.0) / PI * 0.7 * open + 0.45 * edge * smoothstep(-0.2, 0.6, rl));
     light += rim * 0.12 * max(-rl, 0.0) * tint;
 
     // Hemisphere light of sky and floor, and reflections of the environment.
