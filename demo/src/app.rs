@@ -275,7 +275,9 @@ impl App {
         self.afterglow.fade(seconds);
         self.pass_time(seconds);
         self.meter.record_frame(seconds);
-        self.resolution_scaler.record_frame(seconds);
+        if self.resolution_scaler.record_frame(seconds) {
+            scene::drop_self_collision(&mut self.scene, &self.settings)?;
+        }
         Ok(())
     }
 
@@ -395,6 +397,9 @@ impl App {
     fn rebuild_scene(&mut self, settings: &Settings) -> Result<()> {
         self.scene = scene::build(settings, self.reduced_motion)?;
         scene::settle(&mut self.scene, settings, self.reduced_motion)?;
+        if self.resolution_scaler.is_low() {
+            scene::drop_self_collision(&mut self.scene, settings)?;
+        }
         self.set_clocks();
         if settings.scene != self.settings.scene {
             self.camera.reset_to_rig(scene::camera_rig(settings.scene), self.screen.aspect());

@@ -137,18 +137,20 @@ impl Default for ResolutionScaler {
 
 impl ResolutionScaler {
     /// Adds the duration of a frame [s]; lowers the scale after [`SLOW_SECONDS`] of slow frames, and
-    /// begins the low mode if the scale is at its least.
-    pub fn record_frame(&mut self, seconds: f32) {
+    /// begins the low mode if the scale is at its least. Returns whether it has just begun.
+    pub fn record_frame(&mut self, seconds: f32) -> bool {
         if seconds > PAUSE {
-            return;
+            return false;
         }
+        let was_low = self.is_low;
         let is_slow = seconds * SLOW_RATE > 1.0;
         self.slow = if is_slow { self.slow + seconds.min(LONGEST_SLOW) } else { 0.0 };
         if self.slow > SLOW_SECONDS {
             self.slow = 0.0;
-            self.is_low = self.scale == LEAST_SCALE;
+            self.is_low |= self.scale == LEAST_SCALE;
             self.scale = (self.scale * 0.8).max(LEAST_SCALE);
         }
+        self.is_low && !was_low
     }
 
     /// Returns the fraction of the device pixels to draw along each side; `density` is the number

@@ -46,6 +46,8 @@ const SETTLING_TICKS: u32 = 110;
 const SETTLING_WORK: u32 = 180_000;
 /// Factor of the wind in the gust before the first frame.
 const GUST: f32 = 1.9;
+/// Least distance between the rings of the sheet [m].
+const RING_GAP: f32 = 0.09;
 /// Most particles of a sheet that keeps from itself in real time, also on a page, and the distance
 /// between its layers [m].
 const MAX_SELF_COLLIDING: u32 = 2500;
@@ -198,7 +200,9 @@ fn hanger(settings: &Settings) -> Vec<Solid> {
         let wire = end * 0.94;
         solids.push(Solid::capsule(wire.with_y(rod.y), wire.with_y(4.5), 0.0025, 0x8d93a3));
     }
-    for place in (0..=last).filter(is_below).map(|i| pleats[i]) {
+    let mut rings: Vec<_> = (0..=last).filter(is_below).map(|i| pleats[i]).collect();
+    rings.dedup_by(|next, ring| next.x - ring.x < RING_GAP);
+    for place in rings {
         let (on_rod, across) = (rod.with_x(place.x), Vec3::X * 0.005);
         solids.push(Solid::cylinder(on_rod - across, on_rod + across, 0.019, 0.004, BRASS));
         let clip = top + Vec3::new(place.x, -0.012, place.y);
@@ -370,10 +374,9 @@ pub fn settle(
         return Ok(());
     }
     // Self-collision would take most of the time here, and hardly changes the drape.
-    let cloth = &mut instance.cloths[0];
-    let live = cloth.settings().clone();
-    cloth.set_settings(muslin::Settings { self_collision: SelfCollision::None, ..live.clone() })?;
-    let particles = cloth.particle_count().max(1);
+    let live = instance.cloths[0].settings().clone();
+    drop_self_collision(instance, settings)?;
+    let particles = instance.cloths[0].particle_count().max(1);
     let ticks = (SETTLING_WORK / particles).min(SETTLING_TICKS);
     let gust = if reduced_motion { 0 } else { ticks / 3 };
     instance.step(ticks - gust);
@@ -382,6 +385,20 @@ pub fn settle(
     instance.step(gust);
     instance.cloths[0].set_wind(wind)?;
     instance.cloths[0].set_settings(live)
+}
+
+/// Lets the layers of the sheet pass through each other: a machine that is too slow for it moves
+/// better so.
+///
+/// # Errors
+/// As [`Cloth::set_settings`]; the settings of a scene cause none.
+pub fn drop_self_collision(instance: &mut SceneInstance, settings: &Settings) -> Result<()> {
+    if settings.scene != SceneKind::Sheet {
+        return Ok(());
+    }
+    let cloth = &mut instance.cloths[0];
+    let live = cloth.settings().clone();
+    cloth.set_settings(muslin::Settings { self_collision: SelfCollision::None, ..live })
 }
 
 /// Applies the settings to all cloths; `reduced_motion` weakens gusts, wander and turbulence of the
