@@ -73,7 +73,7 @@ impl Fabric {
     /// All fabrics, in the order of the panel.
     pub const ALL: [Self; 4] = [Self::Silk, Self::Cotton, Self::Denim, Self::Flag];
     /// Names on the panel.
-    pub const NAMES: [&'static str; 4] = ["Silk", "Cotton", "Denim", "Flag"];
+    pub const NAMES: [&'static str; 4] = ["Silk", "Cotton", "Denim", "Nylon"];
 
     /// Returns the material. Stretch compliance is zero, so that the number of iterations (the
     /// stiffness control) alone decides how much the cloth stretches.
@@ -107,7 +107,7 @@ impl Fabric {
     pub fn appearance(self) -> Appearance {
         match self {
             Self::Silk => Appearance {
-                front: 0x7f9af5,
+                front: 0x7590f2,
                 back: 0xa0b4fa,
                 saturation: 0.95,
                 threads: [0xb4c2ff, 0xd6dcff],
@@ -115,7 +115,7 @@ impl Fabric {
                 count: 220.0,
                 relief: [0.15, 0.03],
                 weave: 0.0,
-                gloss: [0.13, 0.42, 0.16, 1.3],
+                gloss: [0.13, 0.42, 0.18, 1.3],
                 fuzz: 0.16,
                 transmission: 1.0,
                 print: Print::None,

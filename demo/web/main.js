@@ -44,6 +44,8 @@ function run(demo) {
       saveNow();
     },
   });
+  openLink(demo);
+  refresh();
   // The demo has corrected invalid values; this corrects them in the storage too.
   saveNow();
 
@@ -84,6 +86,15 @@ function run(demo) {
     eye: () => Array.from(demo.eye()),
   };
   setPageState("running");
+}
+
+/** Applies choices of the address, such as `?scene=curtain&fabric=denim`. */
+function openLink(demo) {
+  const wanted = new URLSearchParams(location.search);
+  for (const { name, options } of JSON.parse(Demo.controls())) {
+    const option = options.findIndex((label) => label.toLowerCase() === wanted.get(name));
+    if (option >= 0) demo.set(name, option);
+  }
 }
 
 function showReadout(stats) {

@@ -1,7 +1,7 @@
 //! Renderer of the cloth scenes: forward rendering with two shadow-casting lights.
 //!
 //! ```text
-//! shadow maps ─▶ sky ─▶ reflections ─▶ ground ─▶ solids ─▶ cloth ─▶ threads, wireframe ─▶ glow, trail
+//! shadow maps ─▶ sky ─▶ reflections ─▶ ground ─▶ solids ─▶ cloth ─▶ threads, wireframe ─▶ glow, dust, trail
 //!                                      (multisampled HDR target)           ─▶ resolve ─▶ post ─▶ output
 //! ```
 //! Method: passes write linear colours to a multisampled half-float target; [`post`] applies tone
@@ -13,6 +13,7 @@
 
 mod canvas;
 pub mod cloth_material;
+pub mod dust;
 pub mod fringe;
 pub mod glow;
 pub mod ground;
@@ -74,6 +75,7 @@ pub struct Renderer {
     cloth: cloth_material::ClothMaterial,
     ground: ground::Ground,
     glow: glow::Glow,
+    dust: dust::Dust,
     wireframe: wireframe::Wireframe,
     fringe: fringe::Fringe,
     trail: trail::Trail,
@@ -113,6 +115,7 @@ impl Renderer {
             cloth: cloth_material::ClothMaterial::new(context)?,
             ground: ground::Ground::new(context)?,
             glow: glow::Glow::new(context)?,
+            dust: dust::Dust::new(context)?,
             wireframe: wireframe::Wireframe::new(context)?,
             fringe: fringe::Fringe::new(context)?,
             trail: trail::Trail::new(context)?,
@@ -208,6 +211,7 @@ impl Renderer {
                     }
                 }
                 self.glow.draw(&pass, &self.quad, &halos);
+                self.dust.draw(&pass, frame.time);
                 self.trail.draw(&pass, frame.trail);
                 Ok(())
             })?;
