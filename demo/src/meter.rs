@@ -136,8 +136,8 @@ impl Default for ResolutionScaler {
 }
 
 impl ResolutionScaler {
-    /// Adds the duration of a frame [s]; lowers the scale after [`SLOW_SECONDS`] of slow frames, and
-    /// begins the low mode if the scale is at its least. Returns whether it has just begun.
+    /// Adds the duration of a frame [s]; lowers the scale after [`SLOW_SECONDS`] of slow frames,
+    /// and begins the low mode if the scale is at its least. Returns whether it has just begun.
     pub fn record_frame(&mut self, seconds: f32) -> bool {
         if seconds > PAUSE {
             return false;

@@ -40,8 +40,8 @@ const BALL_INSET: f32 = 0.009;
 const GARMENT_SPACING: f32 = 0.04;
 /// Fabrics of the discs.
 const DISC_FABRICS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
-/// Most ticks before the first frame, and most ticks times particles, so that a fine cloth does not
-/// start late.
+/// Most ticks before the first frame, and most ticks times particles, so that a fine cloth does
+/// not start late.
 const SETTLING_TICKS: u32 = 110;
 const SETTLING_WORK: u32 = 180_000;
 /// Factor of the wind in the gust before the first frame.

@@ -20,7 +20,7 @@ use muslin::View;
 
 /// A cloth with more vertices is drawn as it is.
 const MAX_REFINED: usize = 4500;
-/// Radius of the smoothing that measures fold depths [m], and most rounds of it.
+/// Radius of the smoothing that measures fold depths, in drawn metres, and most rounds of it.
 const FOLD_RADIUS: f32 = 0.09;
 const MAX_ROUNDS: u32 = 12;
 /// Marks a neighbour that a border or a tear has no vertex for.
@@ -42,6 +42,8 @@ enum Middle {
 pub struct Weave {
     /// Distance between neighbouring particles [m].
     pub spacing: f32,
+    /// Length in the simulation of one drawn metre [m].
+    pub unit: f32,
     /// Whether the edges of the mesh follow threads.
     pub is_grid: bool,
     /// Whether to make the mesh finer.
@@ -76,7 +78,7 @@ impl SmoothSurface {
             self.built_for = Some((revision, weave));
             self.rebuild(view, weave);
         }
-        self.measure_folds(view, weave.spacing);
+        self.measure_folds(view, weave);
         self.positions.clear();
         self.normals.clear();
         self.positions.extend_from_slice(view.positions);
@@ -217,11 +219,11 @@ impl SmoothSurface {
     }
 
     /// Measures the fold depths of the vertices of the cloth, and of the middles of edges.
-    fn measure_folds(&mut self, view: &View<'_>, spacing: f32) {
+    fn measure_folds(&mut self, view: &View<'_>, weave: Weave) {
         let [now, next] = &mut self.smoothed;
         now.clear();
         now.extend_from_slice(view.positions);
-        let cells = FOLD_RADIUS / spacing.max(1.0e-4);
+        let cells = FOLD_RADIUS * weave.unit / weave.spacing.max(1.0e-4);
         // Each round spreads by two thirds of a squared cell.
         let rounds = (1.5 * cells * cells).round().clamp(1.0, MAX_ROUNDS as f32) as u32;
         for _ in 0..rounds {
@@ -321,7 +323,7 @@ mod tests {
 
     fn smooth(cloth: &mut Cloth, is_grid: bool) -> SmoothSurface {
         let mut smooth = SmoothSurface::default();
-        let weave = Weave { spacing: 0.1, is_grid, refine: true };
+        let weave = Weave { spacing: 0.1, unit: 1.0, is_grid, refine: true };
         smooth.update(&cloth.view(), weave, 1);
         smooth
     }
@@ -439,7 +441,7 @@ mod tests {
             state_revision: 1,
         };
         let mut surface = SmoothSurface::default();
-        surface.update(&view, Weave { spacing: 1.0, is_grid: true, refine: true }, 1);
+        surface.update(&view, Weave { spacing: 1.0, unit: 1.0, is_grid: true, refine: true }, 1);
         assert!(surface.positions().iter().all(|at| at.z == 0.0 || at.z == 5.0));
         let torn = surface.frayed()[12..].iter().filter(|torn| **torn).count();
         assert_eq!(torn, 2, "one middle on each side of the tear");

@@ -95,8 +95,12 @@ fn surface<'a>(
     settings: &Settings,
 ) -> ClothSurface<'a> {
     let revision = lines.revision.unwrap_or_default();
-    let spacing = scene::spacing(settings);
-    let weave = Weave { spacing, is_grid: scene::grid_size(settings).is_some(), refine };
+    let weave = Weave {
+        spacing: scene::spacing(settings),
+        unit: scene::unit(settings.scene),
+        is_grid: scene::grid_size(settings).is_some(),
+        refine,
+    };
     smooth.update(&cloth.view(), weave, revision);
     ClothSurface {
         positions: smooth.positions(),

@@ -91,7 +91,7 @@ function run(demo) {
 /** Applies choices of the address, such as `?scene=curtain&fabric=denim`. */
 function openLink(demo) {
   const wanted = new URLSearchParams(location.search);
-  for (const { name, options } of JSON.parse(Demo.controls())) {
+  for (const { name, options = [] } of JSON.parse(Demo.controls())) {
     const option = options.findIndex((label) => label.toLowerCase() === wanted.get(name));
     if (option >= 0) demo.set(name, option);
   }

@@ -3,8 +3,8 @@
 //! Method: a forward pass with `cloth.frag`; the reflection on the floor is a second, mirrored
 //! pass.
 //!
-//! Reads a [`Mesh`], the shadow maps of key and rim light, the lights and a fabric [`Appearance`]; writes colour and
-//! depth of the current target.
+//! Reads a [`Mesh`], the shadow maps of key and rim light, the lights and a fabric [`Appearance`];
+//! writes colour and depth of the current target.
 //!
 //! Invariant: colours are linear here; [`ClothAlbedo`] converts them from sRGB.
 

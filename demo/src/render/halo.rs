@@ -1,7 +1,7 @@
 //! Halos of the lights: where they stand, and how bright they are in a frame.
 //!
-//! Method: a table of lamps on both sides of the stage; those beyond it are visible, and all breathe
-//! slowly.
+//! Method: a table of lamps on both sides of the stage; those beyond it are visible, and all
+//! breathe slowly.
 //!
 //! Reads the camera view and the time; returns [`Halo`]s.
 //!

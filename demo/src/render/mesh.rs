@@ -23,7 +23,8 @@ pub struct ClothSurface<'a> {
     pub uvs: &'a [Vec2],
     /// Whether a vertex lies on a torn or cut edge.
     pub frayed: &'a [bool],
-    /// How far each vertex lies behind its surroundings, as seen from the front [m]; none means zeros.
+    /// How far each vertex lies behind its surroundings, as seen from the front [m]; none means
+    /// zeros.
     pub hollows: &'a [f32],
     /// Three vertex indices per triangle.
     pub indices: &'a [u32],

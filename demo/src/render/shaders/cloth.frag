@@ -56,7 +56,7 @@ float rimVisibility(vec3 place) {
     float lit = 0.0;
     for (int i = 0; i < 4; i++) {
         vec2 o = texel * vec2(i % 2 == 0 ? 1.0 : -1.0, i < 2 ? 1.0 : -1.0);
-        lit += texture(rimMap, vec3(s.xy + o, s.z - 0.0012));
+        lit += texture(rimMap, vec3(s.xy + o, s.z - 0.0020));
     }
     return 0.25 * lit;
 }
@@ -131,7 +131,7 @@ void main() {
     float fl = max((dot(n, fillTowards) + 0.25) / 1.25, 0.0);
     light += fillColour * openTint * (albedo * fl / PI + 0.5 * shine * thread * satin(n, t, b, fillTowards, v, min(1.6 * width, 0.9)));
     float rl = dot(n, rimTowards);
-    vec3 rim = rimColour * rimVisibility(at + smoothN * (dot(smoothN, rimTowards) >= 0.0 ? 0.02 : -0.02));
+    vec3 rim = rimColour * rimVisibility(at + smoothN * (dot(smoothN, rimTowards) >= 0.0 ? 0.03 : -0.03));
     float edge = pow(1.0 - nv, 3.0);
     light += rim * (albedo * max(rl, 0.0) / PI * 0.7 * open + 0.45 * edge * smoothstep(-0.2, 0.6, rl));
     light += rim * 0.12 * max(-rl, 0.0) * tint;
