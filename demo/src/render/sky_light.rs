@@ -36,13 +36,14 @@ impl SkyLight {
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
-        // One direction straight up, and three inclined ones around it.
+        // One direction nearly straight up, so that hanging paper is not seen edge-on, and three
+        // inclined ones around it.
         let around = |turn: f32| Vec3::new(turn.sin(), 0.62, turn.cos()).normalize();
         Ok(Self {
             context: context.clone(),
             depths: DepthProgram::new(context)?,
             maps: depth_map(context, SIDE * TEXELS),
-            towards: [Vec3::Y, around(-0.5), around(1.6), around(3.7)],
+            towards: [Vec3::new(-0.2, 1.0, 0.3).normalize(), around(-0.5), around(1.6), around(3.7)],
             clips: [Mat4::IDENTITY; COUNT],
         })
     }
