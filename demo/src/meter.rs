@@ -122,10 +122,10 @@ pub struct ResolutionScaler {
 const SLOW_RATE: f32 = 40.0;
 /// Time of slow frames before the scale changes [s].
 const SLOW_SECONDS: f32 = 2.0;
-/// Longer frames are pauses of the window and do not count [s].
-const PAUSE: f32 = 3.0;
-/// Most time of one frame that counts as slow [s].
+/// Most time of one frame that counts as slow [s]: a longer one may be a pause of the window.
 const LONGEST_SLOW: f32 = 0.5;
+/// Frame rate below which the scale goes to its least at once [1/s].
+const VERY_SLOW_RATE: f32 = 10.0;
 /// Least number of drawn pixels per device pixel along each side.
 const LEAST_SCALE: f32 = 0.5;
 
@@ -139,16 +139,14 @@ impl ResolutionScaler {
     /// Adds the duration of a frame [s]; lowers the scale after [`SLOW_SECONDS`] of slow frames,
     /// and begins the low mode if the scale is at its least. Returns whether it has just begun.
     pub fn record_frame(&mut self, seconds: f32) -> bool {
-        if seconds > PAUSE {
-            return false;
-        }
         let was_low = self.is_low;
         let is_slow = seconds * SLOW_RATE > 1.0;
         self.slow = if is_slow { self.slow + seconds.min(LONGEST_SLOW) } else { 0.0 };
         if self.slow > SLOW_SECONDS {
             self.slow = 0.0;
             self.is_low |= self.scale == LEAST_SCALE;
-            self.scale = (self.scale * 0.8).max(LEAST_SCALE);
+            let factor = if seconds * VERY_SLOW_RATE > 1.0 { LEAST_SCALE } else { 0.8 };
+            self.scale = (self.scale * factor).max(LEAST_SCALE);
         }
         self.is_low && !was_low
     }
@@ -193,9 +191,18 @@ mod tests {
         }
         assert!(resolution_scaler.is_low());
         assert_eq!((resolution_scaler.scale(1.0), resolution_scaler.scale(3.0)), (0.5, 0.5));
-        let before = resolution_scaler;
-        resolution_scaler.record_frame(60.0);
-        assert_eq!(resolution_scaler.slow, before.slow, "a pause of the window counts");
+    }
+
+    #[test]
+    fn very_slow_frames_reach_the_low_mode_in_four_seconds_and_a_pause_does_not() {
+        let mut resolution_scaler = ResolutionScaler::default();
+        for _ in 0..20 {
+            resolution_scaler.record_frame(60.0);
+            resolution_scaler.record_frame(1.0 / 60.0);
+        }
+        assert_eq!(resolution_scaler.scale(2.0), 1.0);
+        let begins = (1..).find(|_| resolution_scaler.record_frame(0.4));
+        assert_eq!(begins, Some(12), "twice more than two seconds");
     }
 
     #[test]

@@ -43,7 +43,12 @@ impl SkyLight {
             context: context.clone(),
             depths: DepthProgram::new(context)?,
             maps: depth_map(context, SIDE * TEXELS),
-            towards: [Vec3::new(-0.2, 1.0, 0.3).normalize(), around(-0.5), around(1.6), around(3.7)],
+            towards: [
+                Vec3::new(-0.2, 1.0, 0.3).normalize(),
+                around(-0.5),
+                around(1.6),
+                around(3.7),
+            ],
             clips: [Mat4::IDENTITY; COUNT],
         })
     }
