@@ -107,9 +107,9 @@ impl Fabric {
     pub fn appearance(self) -> Appearance {
         match self {
             Self::Silk => Appearance {
-                front: 0x7590f2,
+                front: 0x839bf0,
                 back: 0xa0b4fa,
-                saturation: 0.95,
+                saturation: 0.90,
                 threads: [0xb4c2ff, 0xd6dcff],
                 seam: (0x6f7fbf, 0.30),
                 count: 220.0,
