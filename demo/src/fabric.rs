@@ -135,7 +135,7 @@ impl Fabric {
                 print: Print::None,
             },
             Self::Denim => Appearance {
-                front: 0x4a639c,
+                front: 0x43598c,
                 back: 0xb4bfd2,
                 saturation: 1.0,
                 threads: [0x3d5fa8, 0xd9dde6],

@@ -110,7 +110,7 @@ void main() {
     vec3 openTint = open / (1.0 - albedo * (1.0 - open));
     float ridge = clamp(-fold / 0.030, 0.0, 1.0);
     // Denim is worn on its ridges.
-    if (cloth.w == 1.0) albedo = mix(albedo, vec3(0.42, 0.47, 0.56), 0.28 * ridge);
+    if (cloth.w == 1.0) albedo = mix(albedo, vec3(0.40, 0.46, 0.56), 0.18 * ridge);
 
     vec3 light = vec3(0.0);
     // Key light: diffuse, two specular lobes and sheen on the lit face; transmission on the other.
@@ -133,7 +133,7 @@ void main() {
     float rl = dot(n, rimTowards);
     vec3 rim = rimColour * rimVisibility(at + smoothN * (dot(smoothN, rimTowards) >= 0.0 ? 0.03 : -0.03));
     float edge = pow(1.0 - nv, 3.0);
-    light += rim * (albedo * max(rl, 0.0) / PI * 0.7 * open + 0.45 * edge * smoothstep(-0.2, 0.6, rl));
+    light += rim * (albedo * max(rl, 0.0) / PI * 0.7 * open + min(0.15 + 0.25 * gloss.w, 0.45) * edge * smoothstep(-0.2, 0.6, rl));
     light += rim * 0.12 * max(-rl, 0.0) * tint;
 
     // Hemisphere light of sky and floor, and reflections of the environment.

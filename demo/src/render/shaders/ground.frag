@@ -18,7 +18,7 @@ uniform vec3 feet[8];      // x, z and radius of solids that stand on the floor 
 in vec3 at;
 layout (location = 0) out vec4 colour;
 
-const float LAMP = 0.12; // width of the penumbra per metre from the caster
+const float LAMP = 0.10; // width of the penumbra per metre from the caster
 
 // Mean distance from the casters of the key light [m]; 0 if there are none.
 float casterDistance(vec3 s) {
@@ -50,10 +50,10 @@ void main() {
     float r2 = dot(p, p);
     float pool = exp(-0.16 * r2);
     vec3 albedo = vec3(0.066, 0.070, 0.092);
-    vec3 light = albedo * keyColour * keyTowards.y * pool * 0.80 * (0.08 + 0.92 * lit);
-    light += albedo * fillColour * 0.7 * exp(-0.30 * dot(p - vec2(0.9, 0.5), p - vec2(0.9, 0.5)));
+    vec3 light = albedo * keyColour * keyTowards.y * pool * 0.80 * (0.04 + 0.96 * lit);
+    light += albedo * fillColour * 0.45 * exp(-0.30 * dot(p - vec2(0.9, 0.5), p - vec2(0.9, 0.5)));
     light += albedo * rimColour * 0.13 * exp(-0.35 * dot(p - vec2(1.7, -1.2), p - vec2(1.7, -1.2)));
-    light += albedo * vec3(0.10, 0.13, 0.30) * (0.3 + 0.7 * pool);
+    light += albedo * vec3(0.10, 0.13, 0.30) * (0.3 + 0.7 * pool) * (0.7 + 0.3 * lit);
     light *= contact;
     // Reflections: a long streak of the rim light, and the halos.
     vec3 mirror = reflect(-v, vec3(0.0, 1.0, 0.0));
