@@ -30,6 +30,8 @@ use crate::surfaces::{self, WireframeLines};
 
 /// Longest frame time that the camera animation uses [s].
 const LONGEST_FRAME: f32 = 0.1;
+/// Simulation time per frame above which the sheet does not collide with itself [ms].
+const SLOW_SIMULATION: f32 = 10.0;
 /// Period of [`FrameScene::time`], so that it stays exact [s].
 const TIME_PERIOD: f32 = 3600.0;
 
@@ -275,7 +277,8 @@ impl App {
         self.afterglow.fade(seconds);
         self.pass_time(seconds);
         self.meter.record_frame(seconds);
-        if self.resolution_scaler.record_frame(seconds) {
+        self.resolution_scaler.record_frame(seconds);
+        if self.meter.milliseconds() > SLOW_SIMULATION {
             scene::drop_self_collision(&mut self.scene, &self.settings)?;
         }
         Ok(())
@@ -397,9 +400,6 @@ impl App {
     fn rebuild_scene(&mut self, settings: &Settings) -> Result<()> {
         self.scene = scene::build(settings, self.reduced_motion)?;
         scene::settle(&mut self.scene, settings, self.reduced_motion)?;
-        if self.resolution_scaler.is_low() {
-            scene::drop_self_collision(&mut self.scene, settings)?;
-        }
         self.set_clocks();
         if settings.scene != self.settings.scene {
             self.camera.reset_to_rig(scene::camera_rig(settings.scene), self.screen.aspect());

@@ -137,9 +137,8 @@ impl Default for ResolutionScaler {
 
 impl ResolutionScaler {
     /// Adds the duration of a frame [s]; lowers the scale after [`SLOW_SECONDS`] of slow frames,
-    /// and begins the low mode if the scale is at its least. Returns whether it has just begun.
-    pub fn record_frame(&mut self, seconds: f32) -> bool {
-        let was_low = self.is_low;
+    /// and begins the low mode if the scale is at its least.
+    pub fn record_frame(&mut self, seconds: f32) {
         let is_slow = seconds * SLOW_RATE > 1.0;
         self.slow = if is_slow { self.slow + seconds.min(LONGEST_SLOW) } else { 0.0 };
         if self.slow > SLOW_SECONDS {
@@ -148,7 +147,6 @@ impl ResolutionScaler {
             let factor = if seconds * VERY_SLOW_RATE > 1.0 { LEAST_SCALE } else { 0.8 };
             self.scale = (self.scale * factor).max(LEAST_SCALE);
         }
-        self.is_low && !was_low
     }
 
     /// Returns the fraction of the device pixels to draw along each side; `density` is the number
@@ -201,7 +199,10 @@ mod tests {
             resolution_scaler.record_frame(1.0 / 60.0);
         }
         assert_eq!(resolution_scaler.scale(2.0), 1.0);
-        let begins = (1..).find(|_| resolution_scaler.record_frame(0.4));
+        let begins = (1..).find(|_| {
+            resolution_scaler.record_frame(0.4);
+            resolution_scaler.is_low()
+        });
         assert_eq!(begins, Some(12), "twice more than two seconds");
     }
 

@@ -393,11 +393,11 @@ pub fn settle(
 /// # Errors
 /// As [`Cloth::set_settings`]; the settings of a scene cause none.
 pub fn drop_self_collision(instance: &mut SceneInstance, settings: &Settings) -> Result<()> {
-    if settings.scene != SceneKind::Sheet {
-        return Ok(());
-    }
     let cloth = &mut instance.cloths[0];
     let live = cloth.settings().clone();
+    if settings.scene != SceneKind::Sheet || live.self_collision == SelfCollision::None {
+        return Ok(());
+    }
     cloth.set_settings(muslin::Settings { self_collision: SelfCollision::None, ..live })
 }
 

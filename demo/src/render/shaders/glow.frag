@@ -6,7 +6,9 @@ void main() {
     // A hot core in a wide skirt; the window ends it at the border.
     float r2 = dot(place, place);
     float window = max(1.0 - r2, 0.0);
-    float h = 0.5 * exp(-90.0 * r2) + 0.3 * exp(-18.0 * r2) + 0.2 * exp(-4.0 * r2);
-    vec3 light = tint * h + core * exp(-300.0 * r2);
+    float skirt = exp(-4.0 * r2);
+    float middle = skirt * skirt * skirt * skirt;
+    float hot = middle * middle * middle * middle * middle * middle;
+    vec3 light = tint * (0.5 * hot + 0.3 * middle + 0.2 * skirt) + core * hot * hot * hot;
     colour = vec4(light * window * window, 0.0);
 }

@@ -24,8 +24,10 @@ const float LAMP = 0.10; // width of the penumbra per metre from the caster
 float casterDistance(vec3 s) {
     float sum = 0.0;
     float count = 0.0;
+    vec2 towards = vec2(0.14 / radius, 0.0);
     for (int i = 0; i < 16; i++) {
-        float d = texture(depths, s.xy + 0.14 / radius * vogel(i, 16, 0.0)).r;
+        float d = texture(depths, s.xy + sqrt((float(i) + 0.5) / 16.0) * towards).r;
+        towards = GOLDEN * towards;
         if (d < s.z - 0.001) {
             sum += s.z - d;
             count += 1.0;
