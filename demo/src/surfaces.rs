@@ -42,8 +42,9 @@ impl WireframeLines {
     }
 }
 
+/// Returns a number that changes with each of its arguments; its lowest bit is zero.
 fn joined(generation: u32, revision: u32) -> u64 {
-    (u64::from(generation) << 32) | u64::from(revision)
+    (u64::from(generation) << 33) | (u64::from(revision) << 1)
 }
 
 /// Uploads every surface of the scene; `refine` says whether cloths are made finer for it.
@@ -94,7 +95,8 @@ fn surface<'a>(
     (smooth, refine): (&'a mut SmoothSurface, bool),
     settings: &Settings,
 ) -> ClothSurface<'a> {
-    let revision = lines.revision.unwrap_or_default();
+    // A finer mesh has other indices, also where the topology of the cloth is the same.
+    let revision = lines.revision.unwrap_or_default() | u64::from(refine);
     let weave = Weave {
         spacing: scene::spacing(settings),
         unit: scene::unit(settings.scene),
@@ -157,5 +159,34 @@ fn body_surface<'a>(
         span: Vec2::ONE,
         is_round: false,
         revision: joined(generation, 0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cloth_that_is_drawn_with_other_triangles_has_another_revision() {
+        let settings = Settings::default();
+        let mut cloth = scene::build(&settings, false).unwrap().cloths.remove(0);
+        let mut lines = WireframeLines::default();
+        let mut smooth = SmoothSurface::default();
+        let mut drawn = |cloth: &mut Cloth, generation: u32, refine: bool| {
+            lines.update(cloth, generation);
+            let surface = surface(cloth, &lines, (&mut smooth, refine), &settings);
+            let count = surface.positions.len();
+            assert!(surface.indices.iter().all(|i| (*i as usize) < count));
+            (surface.indices.to_vec(), surface.revision)
+        };
+        let mut states = vec![drawn(&mut cloth, 0, true), drawn(&mut cloth, 0, false)];
+        assert!(states[0].0.len() > states[1].0.len(), "the cloth is not made finer");
+        assert_eq!(drawn(&mut cloth, 0, true), states[0]);
+        cloth.tear_edge(820, 821).unwrap();
+        states.extend([drawn(&mut cloth, 0, true), drawn(&mut cloth, 0, false)]);
+        states.push(drawn(&mut cloth, 1, false));
+        for (i, (_, revision)) in states.iter().enumerate() {
+            assert!(states[..i].iter().all(|(_, other)| other != revision), "revision {revision}");
+        }
     }
 }
