@@ -16,7 +16,7 @@ use muslin_scenes::SceneInstance;
 use three_d::{CoreError, RenderTarget};
 
 use crate::afterglow::Afterglow;
-use crate::camera::Camera;
+use crate::camera::{Camera, FreeArea};
 use crate::controls::{self, Action, Kind};
 use crate::meter::{Meter, Readout, ResolutionScaler, StageTime};
 use crate::picking::{PickContext, Screen};
@@ -25,10 +25,15 @@ use crate::render::trail::TrailPoint;
 use crate::render::{FrameScene, Renderer};
 use crate::scene;
 use crate::settings::Settings;
+use crate::smooth_surface::SmoothSurface;
 use crate::surfaces::{self, WireframeLines};
 
 /// Longest frame time that the camera animation uses [s].
 const LONGEST_FRAME: f32 = 0.1;
+/// Simulation time per frame above which the sheet does not collide with itself [ms].
+const SLOW_SIMULATION: f32 = 10.0;
+/// Period of [`FrameScene::time`], so that it stays exact [s].
+const TIME_PERIOD: f32 = 3600.0;
 
 /// The running demo with one of the cloth scenes.
 pub struct App {
@@ -41,12 +46,19 @@ pub struct App {
     afterglow: Afterglow,
     trail_points: Vec<TrailPoint>,
     screen: Screen,
+    /// How far overlays reach into the screen from left, top, right and bottom [px].
+    insets: [f32; 4],
+    /// Whether the size of the screen is known and the camera fits it.
+    is_fitted: bool,
     reduced_motion: bool,
     meter: Meter,
     resolution_scaler: ResolutionScaler,
     clock: fn() -> f64,
     times_stages: bool,
     lines: Vec<WireframeLines>,
+    smooth: Vec<SmoothSurface>,
+    /// Time that the picture has been moving for [s]; stands still with reduced motion.
+    time: f32,
     /// Number of rebuilds of the scene. New cloths restart their topology revision, so this number
     /// tells them apart.
     generation: u32,
@@ -60,8 +72,10 @@ impl App {
     /// As [`scene::build`].
     pub fn new(mut settings: Settings, clock: fn() -> f64) -> Result<Self> {
         settings.clamp();
+        let mut scene = scene::build(&settings, false)?;
+        scene::settle(&mut scene, &settings, false)?;
         Ok(Self {
-            scene: scene::build(&settings, false)?,
+            scene,
             camera: Camera::new(scene::camera_rig(settings.scene)),
             settings,
             pointers: Pointers::default(),
@@ -69,12 +83,16 @@ impl App {
             afterglow: Afterglow::default(),
             trail_points: Vec::new(),
             screen: Screen { size: Vec2::new(1280.0, 720.0) },
+            insets: [0.0; 4],
+            is_fitted: false,
             reduced_motion: false,
             meter: Meter::default(),
             resolution_scaler: ResolutionScaler::default(),
             clock,
             times_stages: false,
             lines: Vec::new(),
+            smooth: Vec::new(),
+            time: 0.0,
             generation: 0,
         })
     }
@@ -166,9 +184,23 @@ impl App {
 
     /// Sets the size of the screen, in logical pixels.
     pub fn resize(&mut self, size: Vec2) {
-        if size.is_finite() && size.min_element() >= 1.0 && size != self.screen.size {
+        if size.is_finite()
+            && size.min_element() >= 1.0
+            && (size != self.screen.size || !self.is_fitted)
+        {
             self.screen.size = size;
+            self.is_fitted = true;
+            self.camera.set_free_area(FreeArea::from_insets(self.insets, size));
             self.camera.fit_to_aspect(self.screen.aspect());
+        }
+    }
+
+    /// Sets how far overlays reach into the screen from left, top, right and bottom, in logical
+    /// pixels.
+    pub fn set_insets(&mut self, insets: [f32; 4]) {
+        if insets != self.insets {
+            self.insets = insets;
+            self.camera.set_free_area(FreeArea::from_insets(insets, self.screen.size));
         }
     }
 
@@ -243,8 +275,12 @@ impl App {
             self.meter.record_simulation((self.clock)() - start);
         }
         self.afterglow.fade(seconds);
+        self.pass_time(seconds);
         self.meter.record_frame(seconds);
         self.resolution_scaler.record_frame(seconds);
+        if self.meter.milliseconds() > SLOW_SIMULATION {
+            scene::drop_self_collision(&mut self.scene, &self.settings)?;
+        }
         Ok(())
     }
 
@@ -265,6 +301,7 @@ impl App {
         self.scene.step(ticks);
         self.meter.record_simulation((self.clock)() - start);
         self.afterglow.fade(ticks as f32 / 60.0);
+        self.pass_time(ticks as f32 / 60.0);
     }
 
     /// Draws the current state of the scene.
@@ -277,6 +314,7 @@ impl App {
         output: &RenderTarget<'_>,
     ) -> std::result::Result<(), CoreError> {
         self.lines.resize_with(self.scene.cloths.len(), WireframeLines::default);
+        self.smooth.resize_with(self.scene.cloths.len(), SmoothSurface::default);
         let mut seconds = [0.0; Stage::COUNT];
         for (cloth, lines) in self.scene.cloths.iter_mut().zip(&mut self.lines) {
             lines.update(cloth, self.generation);
@@ -300,10 +338,18 @@ impl App {
             appearances: &appearances,
             trail: &self.trail_points,
             wireframe: self.settings.wireframe,
+            time: self.time,
             resolution_scale: self.resolution_scaler.scale(density),
         };
         let start = (self.clock)();
-        surfaces::upload(renderer, &mut self.scene, &self.settings, &self.lines, self.generation);
+        surfaces::upload(
+            renderer,
+            &mut self.scene,
+            &self.settings,
+            &self.lines,
+            (&mut self.smooth, !self.resolution_scaler.is_low()),
+            self.generation,
+        );
         let uploaded = (self.clock)();
         renderer.draw(&frame, output)?;
         self.meter.record_drawing(uploaded - start, (self.clock)() - uploaded);
@@ -353,6 +399,7 @@ impl App {
 
     fn rebuild_scene(&mut self, settings: &Settings) -> Result<()> {
         self.scene = scene::build(settings, self.reduced_motion)?;
+        scene::settle(&mut self.scene, settings, self.reduced_motion)?;
         self.set_clocks();
         if settings.scene != self.settings.scene {
             self.camera.reset_to_rig(scene::camera_rig(settings.scene), self.screen.aspect());
@@ -360,6 +407,13 @@ impl App {
         self.pointers.clear();
         self.generation = self.generation.wrapping_add(1);
         Ok(())
+    }
+
+    /// Advances the time of what moves by itself: halos and dust.
+    fn pass_time(&mut self, seconds: f32) {
+        if !self.reduced_motion {
+            self.time = (self.time + seconds) % TIME_PERIOD;
+        }
     }
 
     fn set_clocks(&mut self) {

@@ -43,8 +43,46 @@ impl Default for CameraRig {
             polar: 0.15..=1.5,
             radius: 3.0..=14.0,
             start: [0.42, 1.38, 4.7],
-            half_width: 1.34,
+            half_width: 1.2,
         }
+    }
+}
+
+/// Part of the screen that overlays leave free, as fractions of its sides from the top left corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeArea {
+    /// Top left corner.
+    pub min: Vec2,
+    /// Bottom right corner.
+    pub max: Vec2,
+}
+
+impl Default for FreeArea {
+    /// Returns the whole screen.
+    fn default() -> Self {
+        Self { min: Vec2::ZERO, max: Vec2::ONE }
+    }
+}
+
+impl FreeArea {
+    /// Returns the area that insets from left, top, right and bottom [px] leave free of a screen of
+    /// `size` [px]; at least half of each side.
+    pub fn from_insets([left, top, right, bottom]: [f32; 4], size: Vec2) -> Self {
+        let limit = |inset: f32, side: f32| {
+            if inset.is_finite() { (inset / side.max(1.0)).clamp(0.0, 0.5) } else { 0.0 }
+        };
+        let min = Vec2::new(limit(left, size.x), limit(top, size.y));
+        let max = Vec2::ONE - Vec2::new(limit(right, size.x), limit(bottom, size.y));
+        Self { min, max: max.max(min + 0.5) }
+    }
+
+    fn size(self) -> Vec2 {
+        self.max - self.min
+    }
+
+    /// Returns its centre in normalised device coordinates (y up).
+    fn centre(self) -> Vec2 {
+        (self.min + self.max - 1.0) * Vec2::new(1.0, -1.0)
     }
 }
 
@@ -73,6 +111,9 @@ pub struct Camera {
     goal: OrbitPose,
     idle: f32,
     drift: bool,
+    free: FreeArea,
+    /// Where the target is on the screen, in normalised device coordinates.
+    shift: Vec2,
 }
 
 /// Position and target of the camera in one frame.
@@ -82,6 +123,8 @@ pub struct CameraView {
     pub eye: Vec3,
     /// Point that the eye looks at [m].
     pub target: Vec3,
+    /// Where the target is on the screen, in normalised device coordinates (lens shift).
+    pub shift: Vec2,
 }
 
 impl Default for Camera {
@@ -95,7 +138,15 @@ impl Camera {
     pub fn new(rig: CameraRig) -> Self {
         let [azimuth, polar, radius] = rig.start;
         let place = OrbitPose { azimuth, polar, radius };
-        Self { rig, now: place, goal: place, idle: 0.0, drift: true }
+        Self {
+            rig,
+            now: place,
+            goal: place,
+            idle: 0.0,
+            drift: true,
+            free: FreeArea::default(),
+            shift: Vec2::ZERO,
+        }
     }
 
     /// Orbits by a drag, in screen heights; right and down are positive.
@@ -115,12 +166,19 @@ impl Camera {
         }
     }
 
-    /// Sets the distance so that the cloth fits on a screen with this aspect ratio (width over
-    /// height).
+    /// Sets the part of the screen that overlays leave free; the target eases to its centre.
+    pub fn set_free_area(&mut self, free: FreeArea) {
+        self.free = free;
+    }
+
+    /// Sets the distance so that the cloth fits into the free area of a screen with this aspect
+    /// ratio (width over height), and moves the target to the centre of that area.
     pub fn fit_to_aspect(&mut self, aspect: f32) {
         if aspect.is_finite() && aspect > 0.0 {
-            let across = self.rig.half_width / ((FIELD_OF_VIEW * 0.5).tan() * aspect);
-            self.goal.radius = across.max(self.rig.start[2]);
+            let size = self.free.size();
+            let across = self.rig.half_width / ((FIELD_OF_VIEW * 0.5).tan() * aspect * size.x);
+            self.goal.radius = across.max(self.rig.start[2] / size.y);
+            self.shift = self.free.centre();
             self.clamp_goal();
             self.now.radius = self.goal.radius;
         }
@@ -128,7 +186,7 @@ impl Camera {
 
     /// Moves the camera to the start pose of another rig, without easing.
     pub fn reset_to_rig(&mut self, rig: CameraRig, aspect: f32) {
-        *self = Self { drift: self.drift, ..Self::new(rig) };
+        *self = Self { drift: self.drift, free: self.free, ..Self::new(rig) };
         self.fit_to_aspect(aspect);
     }
 
@@ -149,6 +207,7 @@ impl Camera {
         self.now.azimuth += (self.goal.azimuth - self.now.azimuth) * share;
         self.now.polar += (self.goal.polar - self.now.polar) * share;
         self.now.radius += (self.goal.radius - self.now.radius) * share;
+        self.shift += (self.free.centre() - self.shift) * share;
     }
 
     /// Returns the view of the current pose.
@@ -156,7 +215,8 @@ impl Camera {
         let OrbitPose { azimuth, polar, radius } = self.now;
         let around = Vec3::new(azimuth.sin(), 0.0, azimuth.cos()) * polar.sin();
         let target = self.rig.target;
-        CameraView { eye: target + (around + Vec3::Y * polar.cos()) * radius, target }
+        let eye = target + (around + Vec3::Y * polar.cos()) * radius;
+        CameraView { eye, target, shift: self.shift }
     }
 
     fn clamp_goal(&mut self) {
@@ -169,7 +229,7 @@ impl Camera {
 impl CameraView {
     /// Returns the same view with all lengths multiplied by `unit`.
     pub fn scaled(self, unit: f32) -> Self {
-        Self { eye: self.eye * unit, target: self.target * unit }
+        Self { eye: self.eye * unit, target: self.target * unit, ..self }
     }
 
     /// Returns the focal length [px] on a screen of `height` pixels: the pixels that 1 m covers at
@@ -195,16 +255,23 @@ impl CameraView {
 
     /// Returns the matrix from world space to clip space for this aspect ratio (width over height).
     pub fn clip_from_world(&self, aspect: f32) -> Mat4 {
-        proj::opengl::perspective(FIELD_OF_VIEW, aspect, 0.1, 60.0)
+        Mat4::from_translation(self.shift.extend(0.0))
+            * proj::opengl::perspective(FIELD_OF_VIEW, aspect, 0.1, 60.0)
             * view::look_at_mat4(self.eye, self.target, Vec3::Y)
+    }
+
+    /// Returns half the width and height of the picture at a distance of one, for this aspect ratio
+    /// (width over height).
+    pub fn half_extent(&self, aspect: f32) -> Vec2 {
+        let half = (FIELD_OF_VIEW * 0.5).tan();
+        Vec2::new(half * aspect, half)
     }
 
     /// Returns the unit direction from the eye through a point in normalised device coordinates (y
     /// up).
     pub fn ray(&self, screen: Vec2, aspect: f32) -> Vec3 {
-        let half = (FIELD_OF_VIEW * 0.5).tan();
-        (self.forward() + self.right() * (screen.x * half * aspect) + self.up() * (screen.y * half))
-            .normalize()
+        let side = (screen - self.shift) * self.half_extent(aspect);
+        (self.forward() + self.right() * side.x + self.up() * side.y).normalize()
     }
 
     /// Projects a point to normalised device coordinates (y up); `None` behind the eye.
@@ -272,7 +339,8 @@ mod tests {
 
     #[test]
     fn a_ray_through_a_projected_point_hits_the_point() {
-        let view = Camera::default().view();
+        let shift = Vec2::new(0.2, 0.1);
+        let view = CameraView { shift, ..Camera::default().view() };
         let at = Vec3::new(0.7, 0.6, -0.2);
         let screen = view.project(at, 1.6).unwrap();
         let ray = view.ray(screen, 1.6);
@@ -289,5 +357,39 @@ mod tests {
             let at = camera.view().project(Vec3::new(x, STAGE_CENTRE.y, 0.0), aspect).unwrap();
             assert!(at.x.abs() < 1.0, "edge lands at {at}");
         }
+    }
+
+    #[test]
+    fn the_sheet_is_in_the_free_area_of_wide_and_tall_screens() {
+        for (size, insets) in [
+            (Vec2::new(1440.0, 900.0), [300.0, 0.0, 0.0, 104.0]),
+            (Vec2::new(390.0, 844.0), [0.0, 0.0, 0.0, 200.0]),
+        ] {
+            let mut camera = Camera::default();
+            let free = FreeArea::from_insets(insets, size);
+            camera.set_free_area(free);
+            let aspect = size.x / size.y;
+            camera.fit_to_aspect(aspect);
+            let corners = [(-1.0, 1.0), (1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+            for (x, y) in corners {
+                let at = camera.view().project(Vec3::new(x, y, 0.0), aspect).unwrap();
+                let at = 0.5 + 0.5 * at * Vec2::new(1.0, -1.0);
+                let is_inside = at.cmpgt(free.min).all() && at.cmplt(free.max).all();
+                assert!(is_inside, "a corner lands at {at} in {free:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_new_free_area_moves_the_picture_and_not_the_eye() {
+        let mut camera = Camera::default();
+        let eye = camera.view().eye;
+        let insets = [400.0, 0.0, 0.0, 0.0];
+        camera.set_free_area(FreeArea::from_insets(insets, Vec2::new(1000.0, 600.0)));
+        settle(&mut camera);
+        let view = camera.view();
+        assert!(view.eye.distance(eye) < 1.0e-4);
+        let target = view.project(view.target, 1.5).unwrap();
+        assert!(target.distance(Vec2::new(0.4, 0.0)) < 1.0e-3, "{target}");
     }
 }

@@ -36,7 +36,7 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to 
     --brief           links as the brief lays them, not real paper
     --small           24 x 36 particles, as on small screens
   --NAME VALUE        give a control a value: wind, gravity, stiffness, damping,
-                      fabric (0 silk, 1 cotton, 2 denim, 3 flag), pinning (0 top edge,
+                      fabric (0 silk, 1 cotton, 2 denim, 3 nylon), pinning (0 top edge,
                       1 top corners, 2 corners), resolution (0 to 4: 24, 40, 56, 96, 128)
   --wireframe         draw the links
   --tearing           let over-stretched links tear

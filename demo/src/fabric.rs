@@ -73,7 +73,7 @@ impl Fabric {
     /// All fabrics, in the order of the panel.
     pub const ALL: [Self; 4] = [Self::Silk, Self::Cotton, Self::Denim, Self::Flag];
     /// Names on the panel.
-    pub const NAMES: [&'static str; 4] = ["Silk", "Cotton", "Denim", "Flag"];
+    pub const NAMES: [&'static str; 4] = ["Silk", "Cotton", "Denim", "Nylon"];
 
     /// Returns the material. Stretch compliance is zero, so that the number of iterations (the
     /// stiffness control) alone decides how much the cloth stretches.
@@ -107,16 +107,16 @@ impl Fabric {
     pub fn appearance(self) -> Appearance {
         match self {
             Self::Silk => Appearance {
-                front: 0x9fb6ff,
-                back: 0xc0c8ff,
-                saturation: 0.72,
+                front: 0x839bf0,
+                back: 0xa0b4fa,
+                saturation: 0.90,
                 threads: [0xb4c2ff, 0xd6dcff],
                 seam: (0x6f7fbf, 0.30),
                 count: 220.0,
-                relief: [0.15, 0.05],
+                relief: [0.15, 0.03],
                 weave: 0.0,
-                gloss: [0.21, 0.46, 0.15, 1.0],
-                fuzz: 0.20,
+                gloss: [0.13, 0.42, 0.18, 1.3],
+                fuzz: 0.16,
                 transmission: 1.0,
                 print: Print::None,
             },
@@ -135,7 +135,7 @@ impl Fabric {
                 print: Print::None,
             },
             Self::Denim => Appearance {
-                front: 0x3d5283,
+                front: 0x43598c,
                 back: 0xb4bfd2,
                 saturation: 1.0,
                 threads: [0x3d5fa8, 0xd9dde6],

@@ -174,7 +174,10 @@ mod tests {
         let app = played(Gesture::Cut, Settings::default());
         let readout = app.readout();
         assert!(readout.particles > 1600 + 25, "{} particles", readout.particles);
-        assert!(readout.particles < 1600 + 110, "{} particles", readout.particles);
+        // The blade crosses 0.78 of 39 columns; in each it opens a row thread and a diagonal, and
+        // each of them gets a particle on both sides.
+        let most = 1600 + 4 * 31;
+        assert!(readout.particles <= most, "{} particles", readout.particles);
         assert_eq!(readout.pieces, 1);
     }
 

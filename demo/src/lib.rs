@@ -30,6 +30,7 @@ pub mod render;
 pub mod scene;
 pub mod scene_kind;
 pub mod settings;
+pub mod smooth_surface;
 pub mod surfaces;
 
 #[cfg(not(target_arch = "wasm32"))]

@@ -109,43 +109,57 @@ impl Meter {
     }
 }
 
-/// Lowers the render resolution on dense screens while frames are too slow.
+/// Lowers the render resolution while frames are too slow, and then the detail of the cloth.
 #[derive(Clone, Copy, Debug)]
 pub struct ResolutionScaler {
     scale: f32,
     slow: f32,
+    /// Whether the density of the screen was not enough to lower.
+    is_low: bool,
 }
 
 /// Frame rate below which a frame counts as slow [1/s].
 const SLOW_RATE: f32 = 40.0;
 /// Time of slow frames before the scale changes [s].
 const SLOW_SECONDS: f32 = 2.0;
-/// Longer frames are pauses of the window and do not count [s].
-const PAUSE: f32 = 0.5;
+/// Most time of one frame that counts as slow [s]: a longer one may be a pause of the window.
+const LONGEST_SLOW: f32 = 0.5;
+/// Frame rate below which the scale goes to its least at once [1/s].
+const VERY_SLOW_RATE: f32 = 10.0;
+/// Least number of drawn pixels per device pixel along each side.
+const LEAST_SCALE: f32 = 0.5;
 
 impl Default for ResolutionScaler {
     fn default() -> Self {
-        Self { scale: 1.0, slow: 0.0 }
+        Self { scale: 1.0, slow: 0.0, is_low: false }
     }
 }
 
 impl ResolutionScaler {
-    /// Adds the duration of a frame [s]; lowers the scale after [`SLOW_SECONDS`] of slow frames.
+    /// Adds the duration of a frame [s]; lowers the scale after [`SLOW_SECONDS`] of slow frames,
+    /// and begins the low mode if the scale is at its least.
     pub fn record_frame(&mut self, seconds: f32) {
-        if seconds > PAUSE {
-            return;
-        }
-        self.slow = if seconds * SLOW_RATE > 1.0 { self.slow + seconds } else { 0.0 };
+        let is_slow = seconds * SLOW_RATE > 1.0;
+        self.slow = if is_slow { self.slow + seconds.min(LONGEST_SLOW) } else { 0.0 };
         if self.slow > SLOW_SECONDS {
             self.slow = 0.0;
-            self.scale = (self.scale * 0.8).max(0.5);
+            self.is_low |= self.scale == LEAST_SCALE;
+            let factor = if seconds * VERY_SLOW_RATE > 1.0 { LEAST_SCALE } else { 0.8 };
+            self.scale = (self.scale * factor).max(LEAST_SCALE);
         }
     }
 
     /// Returns the fraction of the device pixels to draw along each side; `density` is the number
-    /// of device pixels per logical pixel. The result is at least one pixel per logical pixel.
+    /// of device pixels per logical pixel. The result is at least one pixel per logical pixel, and
+    /// half of that in the low mode.
     pub fn scale(&self, density: f32) -> f32 {
-        self.scale.max(1.0 / density.max(1.0))
+        let least = if self.is_low { LEAST_SCALE } else { 1.0 };
+        self.scale.max(least / density.max(1.0))
+    }
+
+    /// Returns whether frames are slow at the least resolution too.
+    pub fn is_low(&self) -> bool {
+        self.is_low
     }
 }
 
@@ -158,16 +172,38 @@ mod tests {
     use super::*;
 
     #[test]
-    fn slow_frames_lower_the_scale_only_on_dense_screens() {
+    fn slow_frames_lower_the_scale_first_on_dense_screens_and_then_everywhere() {
         let mut resolution_scaler = ResolutionScaler::default();
         for _ in 0..600 {
             resolution_scaler.record_frame(1.0 / 60.0);
         }
         assert_eq!(resolution_scaler.scale(2.0), 1.0);
-        for _ in 0..600 {
+        // Four times two seconds reach the least scale of a dense screen.
+        for _ in 0..9 * 15 {
             resolution_scaler.record_frame(1.0 / 15.0);
         }
         assert_eq!((resolution_scaler.scale(1.0), resolution_scaler.scale(2.0)), (1.0, 0.5));
+        assert!(!resolution_scaler.is_low());
+        for _ in 0..6 {
+            resolution_scaler.record_frame(1.0);
+        }
+        assert!(resolution_scaler.is_low());
+        assert_eq!((resolution_scaler.scale(1.0), resolution_scaler.scale(3.0)), (0.5, 0.5));
+    }
+
+    #[test]
+    fn very_slow_frames_reach_the_low_mode_in_four_seconds_and_a_pause_does_not() {
+        let mut resolution_scaler = ResolutionScaler::default();
+        for _ in 0..20 {
+            resolution_scaler.record_frame(60.0);
+            resolution_scaler.record_frame(1.0 / 60.0);
+        }
+        assert_eq!(resolution_scaler.scale(2.0), 1.0);
+        let begins = (1..).find(|_| {
+            resolution_scaler.record_frame(0.4);
+            resolution_scaler.is_low()
+        });
+        assert_eq!(begins, Some(12), "twice more than two seconds");
     }
 
     #[test]

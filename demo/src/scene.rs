@@ -11,7 +11,7 @@
 use std::f32::consts::TAU;
 
 use glam::{Vec2, Vec3};
-use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, Wind};
+use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, SelfCollision, Wind};
 use muslin_scenes::disc::Disc;
 use muslin_scenes::figure::garments::SKIRT_SPAN;
 use muslin_scenes::{Curtain, Drapes, Figure, Flag, HangingSheet, SceneInstance, SheetOnBall};
@@ -40,6 +40,18 @@ const BALL_INSET: f32 = 0.009;
 const GARMENT_SPACING: f32 = 0.04;
 /// Fabrics of the discs.
 const DISC_FABRICS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
+/// Most ticks before the first frame, and most ticks times particles, so that a fine cloth does
+/// not start late.
+const SETTLING_TICKS: u32 = 110;
+const SETTLING_WORK: u32 = 180_000;
+/// Factor of the wind in the gust before the first frame.
+const GUST: f32 = 1.9;
+/// Least distance between the rings of the sheet [m].
+const RING_GAP: f32 = 0.09;
+/// Most particles of a sheet that keeps from itself in real time, also on a page, and the distance
+/// between its layers [m].
+const MAX_SELF_COLLIDING: u32 = 2500;
+const SELF_DISTANCE: f32 = 0.004;
 /// Colour of knobs and rings.
 const BRASS: u32 = 0xd9a04a;
 /// Radius of the flag pole [m].
@@ -129,7 +141,8 @@ pub fn span(settings: &Settings) -> Vec2 {
 /// Returns the solids to draw: supports and obstacles of the cloth.
 pub fn solids(settings: &Settings, instance: &SceneInstance) -> Vec<Solid> {
     match settings.scene {
-        SceneKind::Sheet | SceneKind::Figure => Vec::new(),
+        SceneKind::Sheet => hanger(settings),
+        SceneKind::Figure => Vec::new(),
         SceneKind::Ball => {
             let centre = SheetOnBall::CENTRE;
             let radius = SheetOnBall::RADIUS - BALL_INSET;
@@ -164,6 +177,38 @@ fn pedestal(place: Vec3) -> [Solid; 2] {
         Solid::cylinder(foot, top, radius, 0.012, 0x8b8f9c),
         Solid::cylinder(foot, foot + Vec3::Y * 0.05, radius + 0.04, 0.012, 0x5c6270),
     ]
+}
+
+/// The rod that the sheet hangs from on two wires, with a ring and a clip wherever the sheet passes
+/// below it; none for a sheet that all corners hold.
+fn hanger(settings: &Settings) -> Vec<Solid> {
+    let pleats = pleats(settings);
+    let last = pleats.len() - 1;
+    let is_below = |i: &usize| match settings.pinning {
+        Pinning::TopEdge => *i == 0 || *i == last || pleats[*i].y * pleats[*i + 1].y <= 0.0,
+        _ => *i == 0 || *i == last,
+    };
+    if settings.pinning == Pinning::Corners {
+        return Vec::new();
+    }
+    let top = Vec3::Y * (0.5 * HangingSheet::SIZE);
+    let half = Vec3::X * (pleats[last].x + 0.10);
+    let rod = top + Vec3::Y * 0.05;
+    let mut solids = vec![Solid::capsule(rod - half, rod + half, 0.010, BRASS)];
+    for end in [rod - half, rod + half] {
+        solids.push(Solid::sphere(end, 0.021, BRASS));
+        let wire = end * 0.94;
+        solids.push(Solid::capsule(wire.with_y(rod.y), wire.with_y(4.5), 0.0025, 0x8d93a3));
+    }
+    let mut rings: Vec<_> = (0..=last).filter(is_below).map(|i| pleats[i]).collect();
+    rings.dedup_by(|next, ring| next.x - ring.x < RING_GAP);
+    for place in rings {
+        let (on_rod, across) = (rod.with_x(place.x), Vec3::X * 0.005);
+        solids.push(Solid::cylinder(on_rod - across, on_rod + across, 0.019, 0.004, BRASS));
+        let clip = top + Vec3::new(place.x, -0.012, place.y);
+        solids.push(Solid::capsule(on_rod, clip, 0.0045, BRASS));
+    }
+    solids
 }
 
 /// The curtain rod on two stands, with a ring and a clip for each held point.
@@ -217,6 +262,10 @@ fn sheet(settings: &Settings) -> Result<Cloth> {
     desc.material = settings.fabric.material();
     // The stiffness control sets up to twelve iterations per substep, so four substeps are enough.
     desc.settings.substeps = 4;
+    if settings.scene == SceneKind::Sheet && desc.columns * desc.rows <= MAX_SELF_COLLIDING {
+        desc.settings.self_collision = SelfCollision::Surface;
+        desc.settings.self_distance = SELF_DISTANCE;
+    }
     let mut cloth = match settings.scene {
         SceneKind::Flag => Flag::hoist(&desc, settings.pinning != Pinning::TopEdge)?,
         _ => Cloth::grid(&desc)?,
@@ -270,19 +319,31 @@ fn pin_mode(pinning: Pinning) -> PinMode {
     }
 }
 
-/// Sets the start positions: folds for the sheet, an arch between its corners, waves for the flag.
-///
-/// Every row follows one curve whose arc length equals the length of the row, so no link is
-/// stretched. A function gives the direction of the curve by arc length, and the positions are its
-/// running sum.
+/// Sets the start positions: every row follows the curve of [`pleats`].
 fn fold_at_start(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
-    let (Some([columns, rows]), step) = (grid_size(settings), spacing(settings)) else {
-        return Ok(());
-    };
+    let places = pleats(settings);
+    for particle in 0..cloth.particle_count() {
+        let place = places[particle as usize % places.len()];
+        let height = cloth.positions()[particle as usize].y;
+        cloth.set_position(particle, Vec3::new(place.x, height, place.y))?;
+    }
+    Ok(())
+}
+
+/// Returns x and z of the particles of a row at the start: folds for the sheet, an arch between its
+/// corners, waves for the flag.
+///
+/// The arc length of the curve equals the length of the row, so no link is stretched. A function
+/// gives the direction of the curve by arc length, and the positions are its running sum.
+fn pleats(settings: &Settings) -> Vec<Vec2> {
+    let columns = grid_size(settings).map_or(1, |[columns, _]| columns);
+    let step = spacing(settings);
     let direction = |u: f32| match (settings.scene, settings.pinning) {
-        // The phase varies, so that the folds have different widths.
+        // Depth and phase vary, so that no two folds are alike.
         (SceneKind::Sheet, Pinning::TopEdge) => {
-            0.78 * (TAU * (4.5 * u + 0.10 * (TAU * u).sin() + 0.07 * (2.3 * TAU * u).cos())).sin()
+            let depth = 0.66 + 0.20 * (1.3 * TAU * u + 1.0).sin();
+            let phase = 4.3 * u + 0.20 * (TAU * u).sin() + 0.10 * (2.3 * TAU * u).cos();
+            depth * (TAU * phase).sin()
         }
         (SceneKind::Flag, _) => 0.7 * u.sqrt() * (TAU * 1.6 * u).sin(),
         _ => 0.75 * (1.0 - 2.0 * u),
@@ -296,15 +357,48 @@ fn fold_at_start(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
         SceneKind::Flag => Vec2::new(Flag::HOIST.x, Flag::HOIST.z),
         _ => -0.5 * (curve[0] + curve[columns as usize - 1]),
     };
-    for row in 0..rows {
-        for column in 0..columns {
-            let particle = row * columns + column;
-            let height = cloth.positions()[particle as usize].y;
-            let place = curve[column as usize] + start;
-            cloth.set_position(particle, Vec3::new(place.x, height, place.y))?;
-        }
+    curve.iter().map(|place| *place + start).collect()
+}
+
+/// Runs the ticks before the first frame, so that sheet and flag do not start in the folds that
+/// they were made with; they end in a gust. With `reduced_motion` there is none.
+///
+/// # Errors
+/// As [`Cloth::set_wind`] and [`Cloth::set_settings`]; what a scene has causes none.
+pub fn settle(
+    instance: &mut SceneInstance,
+    settings: &Settings,
+    reduced_motion: bool,
+) -> Result<()> {
+    if !matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag) {
+        return Ok(());
     }
-    Ok(())
+    // Self-collision would take most of the time here, and hardly changes the drape.
+    let live = instance.cloths[0].settings().clone();
+    drop_self_collision(instance, settings)?;
+    let particles = instance.cloths[0].particle_count().max(1);
+    let ticks = (SETTLING_WORK / particles).min(SETTLING_TICKS);
+    let gust = if reduced_motion { 0 } else { ticks / 3 };
+    instance.step(ticks - gust);
+    let wind = instance.cloths[0].wind().clone();
+    instance.cloths[0].set_wind(Wind { velocity: wind.velocity * GUST, ..wind.clone() })?;
+    instance.step(gust);
+    instance.cloths[0].set_wind(wind)?;
+    instance.cloths[0].set_settings(live)
+}
+
+/// Lets the layers of the sheet pass through each other: a machine that is too slow for it moves
+/// better so.
+///
+/// # Errors
+/// As [`Cloth::set_settings`]; the settings of a scene cause none.
+pub fn drop_self_collision(instance: &mut SceneInstance, settings: &Settings) -> Result<()> {
+    let cloth = &mut instance.cloths[0];
+    let live = cloth.settings().clone();
+    if settings.scene != SceneKind::Sheet || live.self_collision == SelfCollision::None {
+        return Ok(());
+    }
+    cloth.set_settings(muslin::Settings { self_collision: SelfCollision::None, ..live })
 }
 
 /// Applies the settings to all cloths; `reduced_motion` weakens gusts, wander and turbulence of the

@@ -3,7 +3,8 @@
 //!
 //! Method: the surfaces borrow the lists of cloths and skins, and are uploaded to the renderer.
 //!
-//! Reads the scene and the links of its cloths; writes the buffers of the renderer.
+//! Reads the scene and the links of its cloths; writes smooth surfaces and the buffers of the
+//! renderer.
 //!
 //! Invariant: surfaces have the order of `scene::appearances`; the clothes of the figure come with
 //! their coarse cloth, which has only lines, for the wireframe.
@@ -18,6 +19,7 @@ use crate::render::{ClothSurface, Renderer};
 use crate::scene;
 use crate::scene_kind::SceneKind;
 use crate::settings::Settings;
+use crate::smooth_surface::{SmoothSurface, Weave};
 
 /// End points of the links of one cloth, for the wireframe.
 #[derive(Debug, Default)]
@@ -40,16 +42,18 @@ impl WireframeLines {
     }
 }
 
+/// Returns a number that changes with each of its arguments; its lowest bit is zero.
 fn joined(generation: u32, revision: u32) -> u64 {
-    (u64::from(generation) << 32) | u64::from(revision)
+    (u64::from(generation) << 33) | (u64::from(revision) << 1)
 }
 
-/// Uploads every surface of the scene.
+/// Uploads every surface of the scene; `refine` says whether cloths are made finer for it.
 pub fn upload(
     renderer: &mut Renderer,
     instance: &mut SceneInstance,
     settings: &Settings,
     lines: &[WireframeLines],
+    (smooth, refine): (&mut [SmoothSurface], bool),
     generation: u32,
 ) {
     let result = instance.update_drawn();
@@ -57,8 +61,8 @@ pub fn upload(
     let (cloths, figure) = instance.parts();
     let mut made: Vec<_> = cloths
         .iter_mut()
-        .zip(lines)
-        .map(|(cloth, lines)| surface(cloth, lines, settings))
+        .zip(lines.iter().zip(smooth))
+        .map(|(cloth, (lines, smooth))| surface(cloth, lines, (smooth, refine), settings))
         .collect();
     let Some(body) = figure else {
         renderer.set_cloth_count(made.len());
@@ -76,7 +80,7 @@ pub fn upload(
         body_surface(body, &uvs, &frayed, generation),
     ];
     if settings.wireframe {
-        made.iter_mut().for_each(|cloth| cloth.indices = &[]);
+        made.iter_mut().for_each(|cloth| (cloth.indices, cloth.coarse_indices) = (&[], &[]));
         surfaces.append(&mut made);
     }
     renderer.set_cloth_count(surfaces.len());
@@ -88,20 +92,31 @@ pub fn upload(
 fn surface<'a>(
     cloth: &'a mut Cloth,
     lines: &'a WireframeLines,
+    (smooth, refine): (&'a mut SmoothSurface, bool),
     settings: &Settings,
 ) -> ClothSurface<'a> {
-    let view = cloth.view();
-    ClothSurface {
-        positions: view.positions,
+    // A finer mesh has other indices, also where the topology of the cloth is the same.
+    let revision = lines.revision.unwrap_or_default() | u64::from(refine);
+    let weave = Weave {
+        spacing: scene::spacing(settings),
         unit: scene::unit(settings.scene),
-        normals: view.normals,
-        uvs: view.uvs,
-        frayed: view.frayed,
-        indices: view.indices,
+        is_grid: scene::grid_size(settings).is_some(),
+        refine,
+    };
+    smooth.update(&cloth.view(), weave, revision);
+    ClothSurface {
+        positions: smooth.positions(),
+        unit: scene::unit(settings.scene),
+        normals: smooth.normals(),
+        uvs: smooth.uvs(),
+        frayed: smooth.frayed(),
+        hollows: smooth.hollows(),
+        indices: smooth.indices(),
+        coarse_indices: smooth.coarse_indices(),
         lines: &lines.ends,
         span: scene::span(settings),
         is_round: settings.scene == SceneKind::Discs,
-        revision: lines.revision.unwrap_or_default(),
+        revision,
     }
 }
 
@@ -112,7 +127,9 @@ fn skin_surface(skin: &Skin, span: Vec2, generation: u32) -> ClothSurface<'_> {
         normals: skin.normals(),
         uvs: skin.uvs(),
         frayed: skin.frayed(),
+        hollows: &[],
         indices: skin.indices(),
+        coarse_indices: &[],
         lines: &[],
         span,
         is_round: false,
@@ -135,10 +152,41 @@ fn body_surface<'a>(
         normals: drawn.normals(),
         uvs,
         frayed,
+        hollows: &[],
         indices: drawn.indices(),
+        coarse_indices: &[],
         lines: &[],
         span: Vec2::ONE,
         is_round: false,
         revision: joined(generation, 0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cloth_that_is_drawn_with_other_triangles_has_another_revision() {
+        let settings = Settings::default();
+        let mut cloth = scene::build(&settings, false).unwrap().cloths.remove(0);
+        let mut lines = WireframeLines::default();
+        let mut smooth = SmoothSurface::default();
+        let mut drawn = |cloth: &mut Cloth, generation: u32, refine: bool| {
+            lines.update(cloth, generation);
+            let surface = surface(cloth, &lines, (&mut smooth, refine), &settings);
+            let count = surface.positions.len();
+            assert!(surface.indices.iter().all(|i| (*i as usize) < count));
+            (surface.indices.to_vec(), surface.revision)
+        };
+        let mut states = vec![drawn(&mut cloth, 0, true), drawn(&mut cloth, 0, false)];
+        assert!(states[0].0.len() > states[1].0.len(), "the cloth is not made finer");
+        assert_eq!(drawn(&mut cloth, 0, true), states[0]);
+        cloth.tear_edge(820, 821).unwrap();
+        states.extend([drawn(&mut cloth, 0, true), drawn(&mut cloth, 0, false)]);
+        states.push(drawn(&mut cloth, 1, false));
+        for (i, (_, revision)) in states.iter().enumerate() {
+            assert!(states[..i].iter().all(|(_, other)| other != revision), "revision {revision}");
+        }
     }
 }

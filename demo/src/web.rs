@@ -112,6 +112,12 @@ impl Demo {
         self.app.resize(Vec2::new(width, height));
     }
 
+    /// Sets how far overlays reach into the canvas, in CSS pixels.
+    #[wasm_bindgen(js_name = setInsets)]
+    pub fn set_insets(&mut self, left: f32, top: f32, right: f32, bottom: f32) {
+        self.app.set_insets([left, top, right, bottom]);
+    }
+
     /// Handles a pressed pointer, in CSS pixels of the canvas.
     pub fn press(&mut self, id: u32, x: f32, y: f32) -> Result<(), JsError> {
         self.app.press(id, Vec2::new(x, y)).map_err(js_error)

@@ -1,8 +1,11 @@
 //! Tests of pictures that the demo draws without a window. They need EGL; without it they fail and
 //! name the packages to install.
 
-use muslin_demo::gesture::Gesture;
+use muslin_demo::app::App;
+use muslin_demo::gesture::{Gesture, GesturePlayer};
+use muslin_demo::headless::Headless;
 use muslin_demo::receipt;
+use muslin_demo::render::{OffscreenCanvas, Renderer};
 use muslin_demo::scene_kind::SceneKind;
 use muslin_demo::settings::Settings;
 use muslin_demo::shot::{Picture, ReceiptShot, Shot};
@@ -73,6 +76,33 @@ fn wireframe_and_tears_are_visible() {
     assert!(difference(&plain, &lines) > 0.05);
     let ripped = take(&Shot { ticks: 120, play: Some(Gesture::Tear), ..small() });
     assert!(difference(&plain, &ripped) > 0.01);
+}
+
+/// The frayed threads of the cut were those of the fine mesh, and the coarse one has fewer vertices.
+#[test]
+fn a_cut_sheet_is_drawn_without_gaps_after_slow_frames_lower_its_detail() {
+    let headless = Headless::new().unwrap_or_else(|error| panic!("{error}"));
+    let mut app = App::new(Settings::default(), || 0.0).unwrap();
+    app.camera().set_drift(false);
+    let mut renderer = Renderer::new(&headless.context).unwrap();
+    let canvas = OffscreenCanvas::new(&headless.context, 320, 180);
+    let mut cut = GesturePlayer::new(Gesture::Cut, &mut app);
+    for _ in 0..Gesture::Cut.ticks() {
+        cut.step(&mut app).unwrap();
+    }
+    app.set("paused", 1.0).unwrap();
+    let mut picture = |app: &mut App| {
+        app.draw(&mut renderer, &canvas.target()).unwrap();
+        let rgb = canvas.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).collect();
+        Picture { size: [320, 180], rgb, times: Vec::new(), rate: None }
+    };
+    let fine = picture(&mut app);
+    for _ in 0..20 {
+        app.frame(0.4).unwrap();
+    }
+    let coarse = picture(&mut app);
+    let share = difference(&fine, &coarse);
+    assert!(share > 0.0 && share < 0.2, "{share} of the picture differs");
 }
 
 #[test]

@@ -128,6 +128,9 @@ export function listenToPointers(canvas, demo, press) {
   }
 }
 
+/** Pointer id of the keyboard. */
+const HAND = 4096;
+
 const ARROWS = {
   ArrowLeft: [-0.04, 0],
   ArrowRight: [0.04, 0],
@@ -150,6 +153,42 @@ export function moveCamera(event, canvas, demo) {
     return true;
   }
   return false;
+}
+
+/**
+ * Lets the keyboard grab: Enter presses in the middle of what overlays leave free, arrows drag, Enter
+ * or Escape lifts. `press(x, y)` presses, `middle()` returns that place.
+ */
+export function listenToHand(canvas, demo, middle, press) {
+  const hand = by("hand");
+  let at;
+  const show = () => {
+    hand.hidden = !at;
+    if (at) [hand.style.left, hand.style.top] = at.map((x) => `${x}px`);
+  };
+  const lift = () => {
+    if (at) demo.lift(HAND);
+    at = undefined;
+    show();
+  };
+  canvas.addEventListener("blur", lift);
+  canvas.addEventListener("keydown", (event) => {
+    const arrow = ARROWS[event.key];
+    if (event.key === "Enter" && !event.repeat && !at) {
+      at = middle();
+      press(HAND, ...at);
+    } else if (at && (event.key === "Enter" || event.key === "Escape")) {
+      if (!event.repeat) lift();
+    } else if (at && arrow) {
+      at = at.map((x, i) => x + 600 * arrow[i]);
+      demo.drag(HAND, ...at);
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+    show();
+  });
 }
 
 /** Returns whether no control has the focus; a focused control uses keys such as the space bar. */

@@ -1,13 +1,18 @@
 // Page of the cloth scenes: canvas, events, storage and clock. The demo in WebAssembly makes all
 // decisions.
 
-import { by, context, fail, isFree, listenToPointers, loop, moveCamera, setPageState } from "./canvas.js";
+import { by, context, fail, isFree, listenToHand, listenToPointers, loop, moveCamera, setPageState } from "./canvas.js";
 import init, { Demo } from "./muslin_demo.js";
 import { drawPanel } from "./panel.js";
 
 const KEY = "cloth3d.settings.v1";
 const NARROW = matchMedia("(max-width: 640px)");
 const REDUCED_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
+/** Width of the panel and its margin, and distance of the instructions from the bottom, with margin. */
+const PANEL_WIDTH = 300;
+const HELP_BOTTOM = 68;
+/** In a lower window the instructions cover the scene. */
+const LOW = 560;
 const canvas = by("stage");
 
 // A private window may refuse storage; the demo then runs without it.
@@ -39,6 +44,8 @@ function run(demo) {
       saveNow();
     },
   });
+  openLink(demo);
+  refresh();
   // The demo has corrected invalid values; this corrects them in the storage too.
   saveNow();
 
@@ -62,8 +69,10 @@ function run(demo) {
     refresh();
     saveNow();
   });
+  listenToHand(canvas, demo, () => middle(), (id, x, y) => demo.press(id, x, y));
   connectOverlays();
   for (const id of ["panel", "help", "ask"]) by(id).hidden = false;
+  connectInsets(demo);
 
   window.muslinDemo = {
     stateHash: () => demo.stateHash(),
@@ -77,6 +86,15 @@ function run(demo) {
     eye: () => Array.from(demo.eye()),
   };
   setPageState("running");
+}
+
+/** Applies choices of the address, such as `?scene=curtain&fabric=denim`. */
+function openLink(demo) {
+  const wanted = new URLSearchParams(location.search);
+  for (const { name, options = [] } of JSON.parse(Demo.controls())) {
+    const option = options.findIndex((label) => label.toLowerCase() === wanted.get(name));
+    if (option >= 0) demo.set(name, option);
+  }
 }
 
 function showReadout(stats) {
@@ -130,6 +148,28 @@ function listenToKeys(demo, changed) {
       }
     }
   });
+}
+
+/** Returns how far overlays reach into the canvas from left and bottom. */
+function insets() {
+  const isBeside = !NARROW.matches && !by("panel").classList.contains("closed");
+  return [isBeside ? PANEL_WIDTH : 0, innerHeight < LOW ? 0 : by("help").offsetHeight + HELP_BOTTOM];
+}
+
+/** Returns the middle of what overlays leave free of the canvas. */
+function middle() {
+  const [left, bottom] = insets();
+  return [(left + innerWidth) / 2, (innerHeight - bottom) / 2];
+}
+
+function connectInsets(demo) {
+  const update = () => {
+    const [left, bottom] = insets();
+    demo.setInsets(left, 0, 0, bottom);
+  };
+  addEventListener("resize", update);
+  new MutationObserver(update).observe(by("panel"), { attributeFilter: ["class"] });
+  update();
 }
 
 function connectOverlays() {

@@ -1,6 +1,6 @@
 // Page of the receipt: canvas, events and buttons. The demo in WebAssembly makes all decisions.
 
-import { by, context, fail, isFree, listenToPointers, loop, moveCamera, setPageState } from "./canvas.js";
+import { by, context, fail, isFree, listenToHand, listenToPointers, loop, moveCamera, setPageState } from "./canvas.js";
 import init, { Receipt } from "./muslin_demo.js";
 
 const REDUCED_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
@@ -18,6 +18,8 @@ function run(receipt) {
   applyReducedMotion();
   loop(canvas, receipt, () => showReadout(JSON.parse(receipt.readout())));
   listenToPointers(canvas, receipt, pressHandler(receipt));
+  const middle = () => [innerWidth / 2, innerHeight / 2];
+  listenToHand(canvas, receipt, middle, (id, x, y) => receipt.press(id, x, y, false));
   listenToKeys(receipt, refresh);
   by("loading").hidden = true;
   by("pills").hidden = false;

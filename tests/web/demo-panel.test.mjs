@@ -3,7 +3,17 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { settings, stats, visit, visitRunning, waitFrames, waitUntilRunning } from "./demo-visit.mjs";
+import {
+  cameraPosition,
+  distance,
+  settings,
+  stats,
+  visit,
+  visitRunning,
+  waitFrames,
+  waitUntil,
+  waitUntilRunning,
+} from "./demo-visit.mjs";
 
 /** Stores a value under the key of the settings before the page loads. */
 const storing = (kept) => (page) =>
@@ -188,6 +198,42 @@ test("panel and instructions open and close, and on a narrow screen the panel st
   await help.waitFor({ state: "hidden" });
   const transition = await help.evaluate((it) => getComputedStyle(it).transitionDuration);
   assert.ok(parseFloat(transition) <= 0.0011, `with reduced motion there is still a transition: ${transition}`);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("a link names scene and fabric, and unknown names change nothing", async () => {
+  const linked = await visitRunning({ path: "?scene=curtain&fabric=denim&wind=3" });
+  const { scene, fabric, wind } = await settings(linked.page);
+  assert.deepEqual([scene, fabric, wind.toFixed(1)], ["curtain", "denim", "0.8"]);
+  assert.ok(await linked.page.locator("#control-scene input").nth(4).isChecked());
+  assert.deepEqual(linked.complaints, []);
+  await linked.context.close();
+  const { context, page, complaints } = await visitRunning({ path: "?scene=rug&fabric=" });
+  assert.equal((await settings(page)).scene, "sheet");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("the keyboard grabs the cloth, pulls it and lets it go", async () => {
+  const { context, page, complaints } = await visitRunning();
+  const hand = page.locator("#hand");
+  const cursor = () => page.evaluate(() => document.getElementById("stage").style.cursor);
+  await page.locator("#stage").focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await hand.isVisible(), true);
+  const before = await hand.boundingBox();
+  const eye = await cameraPosition(page);
+  for (let i = 0; i < 4; i++) await page.keyboard.press("ArrowRight");
+  const after = await hand.boundingBox();
+  assert.ok(after.x - before.x > 80 && after.y === before.y, JSON.stringify([before, after]));
+  assert.ok(distance(await cameraPosition(page), eye) < 0.02, "the arrows turned the camera");
+  await page.mouse.move(690, 390);
+  await waitUntil(page, cursor, (now) => now === "grabbing", "the keyboard holds no cloth");
+  await page.keyboard.press("Enter");
+  assert.equal(await hand.isVisible(), false);
+  await page.mouse.move(680, 390);
+  await waitUntil(page, cursor, (now) => now !== "grabbing", "the keyboard did not let go");
   assert.deepEqual(complaints, []);
   await context.close();
 });

@@ -30,13 +30,27 @@ export async function visit({ path = "", ...options } = {}, prepare) {
 
 /**
  * Opens the demo page and waits until it runs. Closes the help, and with `uncovered` also the
- * panel.
+ * panel, and waits until the picture has moved into its place.
  */
 export async function visitRunning({ uncovered, ...options } = {}, prepare) {
   const visited = await visit(options, prepare);
   await waitUntilRunning(visited);
-  if (uncovered) await visited.page.locator("#collapse").click();
+  if (uncovered) {
+    await visited.page.locator("#collapse").click();
+    await waitForPicture(visited.page);
+  }
   return visited;
+}
+
+/** Waits until the picture has moved into what overlays leave free: a held corner stands still. */
+async function waitForPicture(page) {
+  let last = [-Infinity, 0];
+  const isStill = (at) => {
+    const moved = distance(at, last);
+    last = at;
+    return moved < 1;
+  };
+  await waitUntil(page, () => particle(page, 0), isStill, "the picture does not come to rest");
 }
 
 export async function waitUntilRunning(visited) {

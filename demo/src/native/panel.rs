@@ -27,6 +27,9 @@ const DEEP: Color32 = Color32::from_rgb(0x05, 0x07, 0x0d);
 /// Width of the rows [px].
 const WIDTH: f32 = 236.0;
 
+/// Height that the instructions take at the bottom [px].
+const HELP_HEIGHT: f32 = 92.0;
+
 /// A command of the user, to be run after the panel is drawn.
 pub enum PanelCommand {
     /// Set the control of this name.
@@ -70,6 +73,12 @@ impl Panel {
     /// Returns whether a point of the window belongs to the panel.
     pub fn covers(&self, at: Vec2) -> bool {
         self.rects.iter().any(|r| r.contains(egui::pos2(at.x, at.y)))
+    }
+
+    /// Returns how far the panel reaches into the window from left, top, right and bottom [px].
+    pub fn insets(&self) -> [f32; 4] {
+        let left = if self.open { WIDTH + 64.0 } else { 0.0 };
+        [left, 0.0, 0.0, HELP_HEIGHT]
     }
 
     /// Draws the panel and appends the commands of the user.

@@ -72,9 +72,11 @@ pub struct ClothWindow {
 
 impl ClothWindow {
     /// Creates the window state for an application.
-    pub fn new(app: App) -> Self {
+    pub fn new(mut app: App) -> Self {
+        let panel = Panel::default();
+        app.set_insets(panel.insets());
         let saved_settings = app.settings().to_json();
-        Self { app, renderer: None, panel: Panel::default(), commands: Vec::new(), saved_settings }
+        Self { app, renderer: None, panel, commands: Vec::new(), saved_settings }
     }
 }
 
@@ -151,6 +153,7 @@ impl WindowApp for ClothWindow {
 
     fn draw_overlay(&mut self, ctx: &egui::Context) {
         self.panel.draw(ctx, &self.app, &mut self.commands);
+        self.app.set_insets(self.panel.insets());
     }
 
     fn run_commands(&mut self) -> Result<()> {

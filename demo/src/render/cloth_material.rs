@@ -3,8 +3,8 @@
 //! Method: a forward pass with `cloth.frag`; the reflection on the floor is a second, mirrored
 //! pass.
 //!
-//! Reads a [`Mesh`], the shadow map, the lights and a fabric [`Appearance`]; writes colour and
-//! depth of the current target.
+//! Reads a [`Mesh`], the shadow maps of key and rim light, the lights and a fabric [`Appearance`];
+//! writes colour and depth of the current target.
 //!
 //! Invariant: colours are linear here; [`ClothAlbedo`] converts them from sRGB.
 
@@ -12,7 +12,7 @@ use glam::{Vec2, Vec3};
 use three_d::{Context, CoreError, Program, RenderStates};
 
 use super::light::{FLOOR, linear};
-use super::mesh::Mesh;
+use super::mesh::{Detail, Mesh};
 use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 use crate::fabric::Appearance;
@@ -80,13 +80,17 @@ impl ClothMaterial {
         &self,
         pass: &RenderPass,
         mesh: &Mesh,
-        shadow: &ShadowMap,
+        shadows: [&ShadowMap; 2],
         albedo: &ClothAlbedo,
         dim: f32,
     ) {
-        self.prepare(pass, mesh, shadow, albedo, As::Itself);
+        self.prepare(pass, mesh, shadows, albedo, As::Itself);
         self.program.use_uniform("dim", dim);
-        self.program.draw_elements(RenderStates::default(), pass.viewport, &mesh.triangles);
+        self.program.draw_elements(
+            RenderStates::default(),
+            pass.viewport,
+            mesh.triangles(Detail::Full),
+        );
     }
 
     /// Draws the mirror image below the floor; the floor is blended over it later.
@@ -94,20 +98,20 @@ impl ClothMaterial {
         &self,
         pass: &RenderPass,
         mesh: &Mesh,
-        shadow: &ShadowMap,
+        shadows: [&ShadowMap; 2],
         albedo: &ClothAlbedo,
     ) {
-        self.prepare(pass, mesh, shadow, albedo, As::Reflection);
+        self.prepare(pass, mesh, shadows, albedo, As::Reflection);
         self.program.use_uniform("dim", 1.0_f32);
         let states = RenderStates { blend: REFLECTION_BLEND, ..RenderStates::default() };
-        self.program.draw_elements(states, pass.viewport, &mesh.triangles);
+        self.program.draw_elements(states, pass.viewport, mesh.triangles(Detail::Coarse));
     }
 
     fn prepare(
         &self,
         pass: &RenderPass,
         mesh: &Mesh,
-        shadow: &ShadowMap,
+        shadows: [&ShadowMap; 2],
         albedo: &ClothAlbedo,
         shown: As,
     ) {
@@ -124,13 +128,17 @@ impl ClothMaterial {
         p.use_uniform("fillColour", to_gl_vector(pass.lights.fill.colour));
         p.use_uniform("rimTowards", to_gl_vector(pass.lights.rim.towards));
         p.use_uniform("rimColour", to_gl_vector(pass.lights.rim.colour));
-        shadow.bind(p, &pass.lights);
+        let [key, rim] = shadows;
+        key.bind(p, &pass.lights);
+        p.use_uniform("rimFromWorld", to_gl_matrix(pass.lights.rim.clip_from_world()));
+        rim.bind_compared(p, "rimMap");
         self.albedo(albedo, mesh.span);
         p.use_uniform("roundHem", if mesh.is_round { 1.0_f32 } else { 0.0 });
         p.use_vertex_attribute("position", &mesh.positions);
         p.use_vertex_attribute("normal", &mesh.normals);
         p.use_vertex_attribute("texcoord", &mesh.uvs);
         p.use_vertex_attribute("frayed", &mesh.frayed);
+        p.use_vertex_attribute("hollow", &mesh.hollows);
     }
 
     fn albedo(&self, albedo: &ClothAlbedo, span: Vec2) {

@@ -20,6 +20,9 @@ pub use muslin_scenes::FLOOR;
 /// Radius around [`STAGE_CENTRE`] that the shadow map covers [m].
 pub const STAGE_RADIUS: f32 = 2.7;
 
+/// Distances from the eye of a light that its shadow map covers [m].
+pub const STAGE_DEPTH: Range<f32> = 0.5 * STAGE_RADIUS..4.0 * STAGE_RADIUS;
+
 /// A directional light.
 #[derive(Clone, Copy, Debug)]
 pub struct Light {
@@ -32,20 +35,20 @@ pub struct Light {
 /// Key, fill and rim light.
 #[derive(Clone, Copy, Debug)]
 pub struct Lights {
-    /// Key light; the only one that casts shadows.
+    /// Key light; casts shadows on everything.
     pub key: Light,
     /// Fill light, which brightens the shaded side.
     pub fill: Light,
-    /// Rim light from behind, which brightens the silhouette.
+    /// Rim light from behind, which brightens the silhouette; casts shadows on cloth.
     pub rim: Light,
 }
 
 impl Default for Lights {
     fn default() -> Self {
         Self {
-            key: Light::new(Vec3::new(-1.0, 1.25, 1.05), 0xfff1dc, 2.1),
-            fill: Light::new(Vec3::new(1.2, 0.25, 0.8), 0x3a5cff, 0.17),
-            rim: Light::new(Vec3::new(0.85, 0.75, -1.25), 0xff9d5c, 1.5),
+            key: Light::new(Vec3::new(-1.0, 1.25, 1.05), 0xffead2, 2.3),
+            fill: Light::new(Vec3::new(1.2, 0.25, 0.8), 0x829aff, 0.36),
+            rim: Light::new(Vec3::new(0.85, 0.75, -1.25), 0xff8a50, 2.4),
         }
     }
 }
@@ -58,8 +61,7 @@ impl Light {
 
     /// Returns the orthographic light matrix that covers the stage.
     pub fn clip_from_world(&self) -> Mat4 {
-        let r = STAGE_RADIUS;
-        self.clip_around(STAGE_CENTRE, r, 2.0 * r, 0.5 * r..4.0 * r)
+        self.clip_around(STAGE_CENTRE, STAGE_RADIUS, 2.0 * STAGE_RADIUS, STAGE_DEPTH)
     }
 
     /// Returns the orthographic light matrix that covers a sphere; the eye is `away` [m] from its

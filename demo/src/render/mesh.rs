@@ -23,8 +23,13 @@ pub struct ClothSurface<'a> {
     pub uvs: &'a [Vec2],
     /// Whether a vertex lies on a torn or cut edge.
     pub frayed: &'a [bool],
+    /// How far each vertex lies behind its surroundings, as seen from the front [m]; none means
+    /// zeros.
+    pub hollows: &'a [f32],
     /// Three vertex indices per triangle.
     pub indices: &'a [u32],
+    /// The same for fewer and larger triangles; empty if there are none.
+    pub coarse_indices: &'a [u32],
     /// Two vertex indices per line of the wireframe.
     pub lines: &'a [u32],
     /// Size of the texture space, in drawn metres.
@@ -36,18 +41,30 @@ pub struct ClothSurface<'a> {
     pub revision: u64,
 }
 
+/// Which triangles of a cloth a pass draws.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Detail {
+    /// Those of the smooth surface.
+    Full,
+    /// Those of the cloth itself, where the difference does not show.
+    Coarse,
+}
+
 /// GPU buffers of one [`ClothSurface`].
 pub struct Mesh {
     pub(super) positions: VertexBuffer<[f32; 3]>,
     pub(super) normals: VertexBuffer<[f32; 3]>,
     pub(super) uvs: VertexBuffer<[f32; 2]>,
     pub(super) frayed: VertexBuffer<f32>,
-    pub(super) triangles: ElementBuffer<u32>,
+    pub(super) hollows: VertexBuffer<f32>,
+    triangles: ElementBuffer<u32>,
+    coarse_triangles: ElementBuffer<u32>,
     pub(super) lines: ElementBuffer<u32>,
     pub(super) span: Vec2,
     pub(super) is_round: bool,
     revision: Option<u64>,
     staging: Vec<[f32; 3]>,
+    depths: Vec<f32>,
 }
 
 impl Mesh {
@@ -58,12 +75,23 @@ impl Mesh {
             normals: VertexBuffer::new(context),
             uvs: VertexBuffer::new(context),
             frayed: VertexBuffer::new(context),
+            hollows: VertexBuffer::new(context),
             triangles: ElementBuffer::new(context),
+            coarse_triangles: ElementBuffer::new(context),
             lines: ElementBuffer::new(context),
             span: Vec2::ONE,
             is_round: false,
             revision: None,
             staging: Vec::new(),
+            depths: Vec::new(),
+        }
+    }
+
+    /// Returns the triangles of a detail.
+    pub(super) fn triangles(&self, detail: Detail) -> &ElementBuffer<u32> {
+        match detail {
+            Detail::Coarse if self.coarse_triangles.count() > 0 => &self.coarse_triangles,
+            _ => &self.triangles,
         }
     }
 
@@ -77,6 +105,11 @@ impl Mesh {
         };
         upload(&mut self.positions, surface.positions, surface.unit.recip());
         upload(&mut self.normals, surface.normals, 1.0);
+        let depths = surface.hollows.iter().map(|depth| depth / surface.unit);
+        self.depths.clear();
+        self.depths.extend(depths);
+        self.depths.resize(surface.positions.len(), 0.0);
+        self.hollows.fill(&self.depths);
         self.span = surface.span;
         self.is_round = surface.is_round;
         if self.revision != Some(surface.revision) {
@@ -85,6 +118,7 @@ impl Mesh {
             let frayed: Vec<_> = surface.frayed.iter().map(|f| f32::from(u8::from(*f))).collect();
             self.frayed.fill(&frayed);
             self.triangles.fill(surface.indices);
+            self.coarse_triangles.fill(surface.coarse_indices);
             self.lines.fill(surface.lines);
             self.revision = Some(surface.revision);
         }

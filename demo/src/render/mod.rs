@@ -1,7 +1,7 @@
-//! Renderer of the cloth scenes: forward rendering with one shadow-casting light.
+//! Renderer of the cloth scenes: forward rendering with two shadow-casting lights.
 //!
 //! ```text
-//! shadow maps ─▶ sky ─▶ reflections ─▶ ground ─▶ solids ─▶ cloth ─▶ threads, wireframe ─▶ glow, trail
+//! shadow maps ─▶ sky ─▶ reflections ─▶ ground ─▶ solids ─▶ cloth ─▶ threads, wireframe ─▶ glow, dust, trail
 //!                                      (multisampled HDR target)           ─▶ resolve ─▶ post ─▶ output
 //! ```
 //! Method: passes write linear colours to a multisampled half-float target; [`post`] applies tone
@@ -13,9 +13,11 @@
 
 mod canvas;
 pub mod cloth_material;
+pub mod dust;
 pub mod fringe;
 pub mod glow;
 pub mod ground;
+mod halo;
 mod hdr_target;
 pub mod light;
 pub mod mesh;
@@ -36,7 +38,9 @@ use crate::fabric::Appearance;
 pub use canvas::OffscreenCanvas;
 use cloth_material::ClothAlbedo;
 use hdr_target::HdrTarget;
+use light::Light;
 pub use mesh::ClothSurface;
+use mesh::Detail;
 use pass::{RenderPass, UnitQuad};
 
 /// The contents of a frame, except for the cloths.
@@ -52,6 +56,8 @@ pub struct FrameScene<'a> {
     pub trail: &'a [trail::TrailPoint],
     /// Whether to draw the links over the dimmed cloth.
     pub wireframe: bool,
+    /// Time of what moves by itself [s].
+    pub time: f32,
     /// Fraction of the output pixels to draw along each side; the result is scaled up.
     pub resolution_scale: f32,
 }
@@ -63,11 +69,13 @@ pub struct Renderer {
     /// Buffers of each cloth.
     cloths: Vec<ClothBuffers>,
     shadow: shadow::ShadowMap,
-    floor_shadow: shadow::ShadowMap,
+    coarse_shadow: shadow::ShadowMap,
+    rim_shadow: shadow::ShadowMap,
     sky: sky::Sky,
     cloth: cloth_material::ClothMaterial,
     ground: ground::Ground,
     glow: glow::Glow,
+    dust: dust::Dust,
     wireframe: wireframe::Wireframe,
     fringe: fringe::Fringe,
     trail: trail::Trail,
@@ -83,10 +91,12 @@ struct ClothBuffers {
     threads: fringe::FrayedThreads,
 }
 
-/// Size of the shadow map for cloth and solids [texels].
-const CLOTH_SHADOW_SIZE: u32 = 1024;
-/// Size of the shadow map for the floor [texels]; it is coarser because these shadows are softer.
-const FLOOR_SHADOW_SIZE: u32 = 320;
+/// Size of the key light's shadow map [texels].
+const KEY_SHADOW_SIZE: u32 = 1536;
+/// Size of the coarse depth map that measures how far shadows fall on the floor [texels].
+const COARSE_SHADOW_SIZE: u32 = 256;
+/// Size of the rim light's shadow map [texels].
+const RIM_SHADOW_SIZE: u32 = 512;
 
 impl Renderer {
     /// Compiles the shaders and creates the textures.
@@ -98,12 +108,14 @@ impl Renderer {
             context: context.clone(),
             lights: light::Lights::default(),
             cloths: Vec::new(),
-            shadow: shadow::ShadowMap::new(context, CLOTH_SHADOW_SIZE)?,
-            floor_shadow: shadow::ShadowMap::new(context, FLOOR_SHADOW_SIZE)?,
+            shadow: shadow::ShadowMap::new(context, KEY_SHADOW_SIZE)?,
+            coarse_shadow: shadow::ShadowMap::new(context, COARSE_SHADOW_SIZE)?,
+            rim_shadow: shadow::ShadowMap::new(context, RIM_SHADOW_SIZE)?,
             sky: sky::Sky::new(context)?,
             cloth: cloth_material::ClothMaterial::new(context)?,
             ground: ground::Ground::new(context)?,
             glow: glow::Glow::new(context)?,
+            dust: dust::Dust::new(context)?,
             wireframe: wireframe::Wireframe::new(context)?,
             fringe: fringe::Fringe::new(context)?,
             trail: trail::Trail::new(context)?,
@@ -143,10 +155,15 @@ impl Renderer {
         let side = |pixels: u32| (pixels as f32 * frame.resolution_scale).round().max(1.0) as u32;
         let (width, height) = (side(output.width()), side(output.height()));
         HdrTarget::resize(&mut self.target, &self.context, width, height);
-        let clip = self.lights.key.clip_from_world();
-        for shadow in [&self.shadow, &self.floor_shadow] {
+        let [key, rim] = [&self.lights.key, &self.lights.rim].map(Light::clip_from_world);
+        let maps = [
+            (&self.shadow, key, Detail::Full),
+            (&self.coarse_shadow, key, Detail::Coarse),
+            (&self.rim_shadow, rim, Detail::Coarse),
+        ];
+        for (shadow, clip, detail) in maps {
             let meshes = self.cloths.iter().map(|cloth| &cloth.mesh);
-            shadow.draw(meshes, clip, |viewport| {
+            shadow.draw(meshes, clip, detail, |viewport| {
                 self.solids.draw_depth(clip, viewport, frame.solids);
             })?;
         }
@@ -163,6 +180,8 @@ impl Renderer {
             view: frame.view,
             lights: self.lights,
         };
+        let shadows = [&self.shadow, &self.rim_shadow];
+        let halos = halo::halos(&frame.view, frame.time);
         target
             .samples
             .clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0))
@@ -170,13 +189,20 @@ impl Renderer {
                 self.sky.draw(&pass, &self.quad);
                 self.solids.draw_reflection(&pass, &self.shadow, frame.solids);
                 for (cloth, albedo) in cloths() {
-                    self.cloth.draw_reflection(&pass, &cloth.mesh, &self.shadow, albedo);
+                    self.cloth.draw_reflection(&pass, &cloth.mesh, shadows, albedo);
                 }
-                self.ground.draw(&pass, &self.quad, &self.floor_shadow);
+                self.ground.draw(
+                    &pass,
+                    &self.quad,
+                    &self.shadow,
+                    &self.coarse_shadow,
+                    frame.solids,
+                    &halos,
+                );
                 let dim = if frame.wireframe { 0.16 } else { 1.0 };
                 self.solids.draw(&pass, &self.shadow, frame.solids, dim);
                 for (cloth, albedo) in cloths() {
-                    self.cloth.draw(&pass, &cloth.mesh, &self.shadow, albedo, dim);
+                    self.cloth.draw(&pass, &cloth.mesh, shadows, albedo, dim);
                 }
                 for (cloth, albedo) in cloths() {
                     self.fringe.draw(&pass, &cloth.threads, &self.shadow, albedo, dim);
@@ -184,7 +210,8 @@ impl Renderer {
                         self.wireframe.draw(&pass, &cloth.mesh);
                     }
                 }
-                self.glow.draw(&pass, &self.quad);
+                self.glow.draw(&pass, &self.quad, &halos);
+                self.dust.draw(&pass, frame.time);
                 self.trail.draw(&pass, frame.trail);
                 Ok(())
             })?;

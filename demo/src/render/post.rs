@@ -36,7 +36,7 @@ impl Post {
         let p = &self.program;
         p.use_texture("scene", scene);
         p.use_uniform("aspect", viewport.width as f32 / viewport.height as f32);
-        p.use_uniform("exposure", 1.16_f32);
+        p.use_uniform("exposure", 1.30_f32);
         let states = RenderStates {
             depth_test: DepthTest::Always,
             write_mask: WriteMask::COLOR,

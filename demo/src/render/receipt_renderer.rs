@@ -21,7 +21,7 @@ use three_d::{
 
 use super::hdr_target::HdrTarget;
 use super::light::{Light, Lights, linear};
-use super::mesh::{ClothSurface, Mesh};
+use super::mesh::{ClothSurface, Detail, Mesh};
 use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 use super::sky_light::SkyLight;
@@ -140,7 +140,7 @@ impl ReceiptRenderer {
         let key = self.lights.key;
         let clip = key.clip_around(self.centre, self.radius, 0.5 * DEPTH, 0.0..DEPTH);
         for shadow in [&self.shadow, &self.depths] {
-            shadow.draw(std::iter::once(&self.mesh), clip, |viewport| {
+            shadow.draw(std::iter::once(&self.mesh), clip, Detail::Full, |viewport| {
                 self.solids.draw_depth(clip, viewport, &pins);
             })?;
         }
@@ -216,7 +216,7 @@ impl ReceiptRenderer {
         // SAFETY: plain GL state, reset directly after the one draw call that needs it. Alpha to
         // coverage cuts the sawtooth ends of the paper out of the samples of a pixel.
         unsafe { self.context.enable(context::SAMPLE_ALPHA_TO_COVERAGE) };
-        p.draw_elements(RenderStates::default(), pass.viewport, &self.mesh.triangles);
+        p.draw_elements(RenderStates::default(), pass.viewport, self.mesh.triangles(Detail::Full));
         // SAFETY: as above.
         unsafe { self.context.disable(context::SAMPLE_ALPHA_TO_COVERAGE) };
     }

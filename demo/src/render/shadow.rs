@@ -1,4 +1,4 @@
-//! Shadow map of the key light: a depth texture with hardware comparison and filtering.
+//! Shadow map of a light: a depth texture with hardware comparison and filtering.
 //!
 //! Method: depth-only pass from the light, then percentage-closer filtering in `light.glsl`
 //! (Reeves, Salesin, Cook, SIGGRAPH 1987).
@@ -16,7 +16,7 @@ use three_d::{
 };
 
 use super::light::{Light, Lights};
-use super::mesh::Mesh;
+use super::mesh::{Detail, Mesh};
 use super::pass::{to_gl_matrix, to_gl_vector};
 
 /// Depth texture of one light, and the program that fills it.
@@ -48,12 +48,13 @@ impl ShadowMap {
         &self,
         meshes: impl Iterator<Item = &'a Mesh>,
         clip: Mat4,
+        detail: Detail,
         draw_others: impl Fn(Viewport),
     ) -> Result<(), CoreError> {
         self.map.as_depth_target().clear(ClearState::depth(1.0)).write::<CoreError>(|| {
             let viewport = Viewport::new_at_origo(self.map.width(), self.map.height());
             for mesh in meshes {
-                self.depths.draw(mesh, clip, viewport);
+                self.depths.draw(mesh, clip, detail, viewport);
             }
             draw_others(viewport);
             Ok(())
@@ -72,6 +73,12 @@ impl ShadowMap {
         program.use_uniform("keyTowards", to_gl_vector(key.towards));
         program.use_uniform("keyColour", to_gl_vector(key.colour));
         program.use_depth_texture("shadowMap", &self.map);
+        enable_depth_compare(&self.context);
+    }
+
+    /// Binds the map alone, with comparison, to a sampler.
+    pub(super) fn bind_compared(&self, program: &Program, name: &str) {
+        program.use_depth_texture(name, &self.map);
         enable_depth_compare(&self.context);
     }
 
@@ -96,11 +103,11 @@ impl DepthProgram {
     }
 
     /// Draws a cloth into the part of a depth map that `viewport` covers.
-    pub fn draw(&self, mesh: &Mesh, clip: Mat4, viewport: Viewport) {
+    pub fn draw(&self, mesh: &Mesh, clip: Mat4, detail: Detail, viewport: Viewport) {
         self.0.use_uniform("shadowFromWorld", to_gl_matrix(clip));
         self.0.use_vertex_attribute("position", &mesh.positions);
         let states = RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() };
-        self.0.draw_elements(states, viewport, &mesh.triangles);
+        self.0.draw_elements(states, viewport, mesh.triangles(detail));
     }
 }
 

@@ -1,10 +1,10 @@
-//! Backdrop of the cloth scenes: a vertical gradient with a soft light behind the cloth.
+//! Backdrop of the cloth scenes: a dark dome with haze over the horizon.
 //!
 //! Method: one full-screen pass without depth test.
 //!
-//! Reads the aspect ratio; writes the current colour target.
+//! Reads the camera view; writes the current colour target.
 //!
-//! Invariant: the darkest and the brightest colour are the specified ones after tone mapping.
+//! Invariant: it is drawn first, behind everything.
 
 use three_d::{Context, CoreError, DepthTest, Program, RenderStates, WriteMask};
 
@@ -35,7 +35,11 @@ impl Sky {
         let p = &self.program;
         p.use_uniform("lowColour", to_gl_vector(invert_tone_curve(0x05070d)));
         p.use_uniform("highColour", to_gl_vector(invert_tone_curve(0x0b1020)));
-        p.use_uniform("aspect", pass.aspect());
+        let half = pass.view.half_extent(pass.aspect());
+        p.use_uniform("forward", to_gl_vector(pass.view.forward()));
+        p.use_uniform("shift", three_d::Vec2::new(pass.view.shift.x, pass.view.shift.y));
+        p.use_uniform("across", to_gl_vector(pass.view.right() * half.x));
+        p.use_uniform("upward", to_gl_vector(pass.view.up() * half.y));
         let states = RenderStates {
             depth_test: DepthTest::Always,
             write_mask: WriteMask::COLOR,

@@ -11,7 +11,7 @@ use glam::{Mat4, Vec3};
 use three_d::{ClearState, Context, CoreError, DepthTexture2D, Program, Viewport};
 
 use super::light::Light;
-use super::mesh::Mesh;
+use super::mesh::{Detail, Mesh};
 use super::pass::{to_gl_matrix, to_gl_vector};
 use super::shadow::{DepthProgram, depth_map, enable_depth_compare};
 
@@ -36,13 +36,19 @@ impl SkyLight {
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
-        // One direction straight up, and three inclined ones around it.
+        // One direction nearly straight up, so that hanging paper is not seen edge-on, and three
+        // inclined ones around it.
         let around = |turn: f32| Vec3::new(turn.sin(), 0.62, turn.cos()).normalize();
         Ok(Self {
             context: context.clone(),
             depths: DepthProgram::new(context)?,
             maps: depth_map(context, SIDE * TEXELS),
-            towards: [Vec3::Y, around(-0.5), around(1.6), around(3.7)],
+            towards: [
+                Vec3::new(-0.2, 1.0, 0.3).normalize(),
+                around(-0.5),
+                around(1.6),
+                around(3.7),
+            ],
             clips: [Mat4::IDENTITY; COUNT],
         })
     }
@@ -64,7 +70,7 @@ impl SkyLight {
                     width: TEXELS,
                     height: TEXELS,
                 };
-                self.depths.draw(mesh, clip, viewport);
+                self.depths.draw(mesh, clip, Detail::Full, viewport);
             }
             Ok(())
         })?;

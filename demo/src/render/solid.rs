@@ -57,14 +57,25 @@ impl Solid {
 pub struct Solids {
     program: Program,
     depth: Program,
+    fine: Shell,
+    /// For thin solids, which cover few pixels.
+    coarse: Shell,
+}
+
+/// The mesh at one level of detail.
+struct Shell {
     /// Unit direction from the centre of an end, and the index of this end (0 or 1).
-    shell: VertexBuffer<[f32; 4]>,
+    corners: VertexBuffer<[f32; 4]>,
     triangles: ElementBuffer<u32>,
 }
 
 /// Vertices around the axis, and rings per hemisphere.
-const AROUND: u32 = 48;
-const UP: u32 = 12;
+const FINE: [u32; 2] = [48, 12];
+const COARSE: [u32; 2] = [12, 3];
+/// Height over the floor up to which solids are reflected [m].
+const REFLECTED: f32 = 1.6;
+/// A solid with a smaller radius gets the coarse mesh [m].
+const THIN: f32 = 0.03;
 
 impl Solids {
     /// Creates the mesh and compiles the shaders.
@@ -72,7 +83,13 @@ impl Solids {
     /// # Errors
     /// [`CoreError`] if the driver refuses a shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
-        let (shell, triangles) = shell();
+        let shell = |detail| {
+            let (corners, triangles) = shell(detail);
+            Shell {
+                corners: VertexBuffer::new_with_data(context, &corners),
+                triangles: ElementBuffer::new_with_data(context, &triangles),
+            }
+        };
         let vertex =
             concat!(include_str!("shaders/capsule.glsl"), include_str!("shaders/solid.vert"));
         let depth =
@@ -82,8 +99,8 @@ impl Solids {
         Ok(Self {
             program: Program::from_source(context, vertex, fragment)?,
             depth: Program::from_source(context, depth, include_str!("shaders/depth.frag"))?,
-            shell: VertexBuffer::new_with_data(context, &shell),
-            triangles: ElementBuffer::new_with_data(context, &triangles),
+            fine: shell(FINE),
+            coarse: shell(COARSE),
         })
     }
 
@@ -96,7 +113,8 @@ impl Solids {
         let states = RenderStates { blend: REFLECTION_BLEND, ..RenderStates::default() };
         let eye = pass.view.eye.with_y(2.0 * FLOOR - pass.view.eye.y);
         let clip = pass.lights.key.clip_from_world();
-        self.draw_from(eye, pass, shadow, clip, solids, states, [0.45, 1.0]);
+        let near: Vec<_> = solids.iter().copied().filter(is_reflected).collect();
+        self.draw_from(eye, pass, shadow, clip, &near, states, [0.45, 1.0]);
     }
 
     /// Draws the solids with a shadow map that was drawn with the light matrix `clip`.
@@ -124,7 +142,7 @@ impl Solids {
     ) {
         let p = &self.program;
         for solid in solids {
-            self.place(p, pass.clip_from_world, solid);
+            let triangles = self.place(p, pass.clip_from_world, solid);
             p.use_uniform("eye", to_gl_vector(eye));
             p.use_uniform("dim", dim);
             p.use_uniform("mirrored", mirrored);
@@ -135,7 +153,7 @@ impl Solids {
             p.use_uniform("rimTowards", to_gl_vector(pass.lights.rim.towards));
             p.use_uniform("rimColour", to_gl_vector(pass.lights.rim.colour));
             shadow.bind_with_clip(p, &pass.lights.key, clip);
-            p.draw_elements(states, pass.viewport, &self.triangles);
+            p.draw_elements(states, pass.viewport, triangles);
         }
     }
 
@@ -143,12 +161,18 @@ impl Solids {
     pub(super) fn draw_depth(&self, clip_from_world: Mat4, viewport: Viewport, solids: &[Solid]) {
         let states = RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() };
         for solid in solids {
-            self.place(&self.depth, clip_from_world, solid);
-            self.depth.draw_elements(states, viewport, &self.triangles);
+            let triangles = self.place(&self.depth, clip_from_world, solid);
+            self.depth.draw_elements(states, viewport, triangles);
         }
     }
 
-    fn place(&self, program: &Program, clip_from_world: Mat4, solid: &Solid) {
+    /// Sets the uniforms of a solid, and returns the triangles to draw.
+    fn place(
+        &self,
+        program: &Program,
+        clip_from_world: Mat4,
+        solid: &Solid,
+    ) -> &ElementBuffer<u32> {
         let along = (solid.to - solid.from).normalize_or(Vec3::Y);
         let across = along.any_orthonormal_vector();
         program.use_uniform("clipFromWorld", to_gl_matrix(clip_from_world));
@@ -158,29 +182,37 @@ impl Solids {
         program.use_uniform("bevel", solid.bevel.unwrap_or(-1.0));
         program.use_uniform("across", to_gl_vector(across));
         program.use_uniform("along", to_gl_vector(along));
-        program.use_vertex_attribute("place", &self.shell);
+        let shell = if solid.radius < THIN { &self.coarse } else { &self.fine };
+        program.use_vertex_attribute("place", &shell.corners);
+        &shell.triangles
     }
 }
 
-/// Returns vertices and triangles of two hemispheres with joined rims.
-fn shell() -> (Vec<[f32; 4]>, Vec<u32>) {
+/// Whether any of a solid is near enough to the floor to be seen in it.
+fn is_reflected(solid: &Solid) -> bool {
+    solid.from.y.min(solid.to.y) - solid.radius < FLOOR + REFLECTED
+}
+
+/// Returns vertices and triangles of two hemispheres with joined rims, with so many vertices around
+/// the axis and rings per hemisphere.
+fn shell([around, up]: [u32; 2]) -> (Vec<[f32; 4]>, Vec<u32>) {
     let mut corners = Vec::new();
-    for ring in 0..2 * (UP + 1) {
+    for ring in 0..2 * (up + 1) {
         // Both rims lie on the equator.
-        let (end, step) = (ring / (UP + 1), ring % (UP + 1));
-        let height = step as f32 / UP as f32 - (1 - end) as f32;
+        let (end, step) = (ring / (up + 1), ring % (up + 1));
+        let height = step as f32 / up as f32 - (1 - end) as f32;
         let (y, wide) = (0.5 * PI * height).sin_cos();
-        for i in 0..AROUND {
-            let (z, x) = (TAU * i as f32 / AROUND as f32).sin_cos();
+        for i in 0..around {
+            let (z, x) = (TAU * i as f32 / around as f32).sin_cos();
             corners.push([x * wide, y, z * wide, end as f32]);
         }
     }
     let mut triangles = Vec::new();
-    for ring in 0..2 * UP + 1 {
-        for i in 0..AROUND {
-            let j = (i + 1) % AROUND;
-            let [a, b] = [ring * AROUND + i, ring * AROUND + j];
-            let [c, d] = [a + AROUND, b + AROUND];
+    for ring in 0..2 * up + 1 {
+        for i in 0..around {
+            let j = (i + 1) % around;
+            let [a, b] = [ring * around + i, ring * around + j];
+            let [c, d] = [a + around, b + around];
             triangles.extend([a, c, b, b, c, d]);
         }
     }
@@ -193,7 +225,7 @@ mod tests {
 
     #[test]
     fn the_capsule_mesh_is_round_and_closed() {
-        let (corners, triangles) = shell();
+        let (corners, triangles) = shell(FINE);
         for [x, y, z, end] in &corners {
             assert!((x * x + y * y + z * z - 1.0).abs() < 1.0e-5);
             assert!(y * (end - 0.5) >= -1.0e-6, "height {y} at end {end}");

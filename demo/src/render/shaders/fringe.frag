@@ -35,5 +35,5 @@ void main() {
     float back = pow(max(dot(-v, rimTowards), 0.0), 2.0);
     light += rimColour * albedo * across(t, rimTowards) * (0.05 + 0.30 * back);
     light += albedo * mix(vec3(0.050, 0.054, 0.074), vec3(0.165, 0.190, 0.265), 0.5 + 0.5 * abs(facing.y)) * 0.75;
-    colour = vec4(light * dim, look.z);
+    colour = vec4(limited(light) * dim, look.z);
 }

@@ -3,8 +3,8 @@ uniform vec3 centre;
 uniform vec3 right;
 uniform vec3 up;
 in vec2 corner;
-out vec2 uv;
+out vec2 place;
 void main() {
-    uv = corner * 0.5 + 0.5;
+    place = corner;
     gl_Position = clipFromWorld * vec4(centre + right * corner.x + up * corner.y, 1.0);
 }

@@ -1,27 +1,72 @@
-// Dark, slightly polished floor with a pool of key light and the shadow of the cloth.
+// Dark, polished floor: a pool of key light with a shadow that hardens towards its caster (PCSS),
+// light of the other lamps, and a blurred reflection of the halos.
 
 uniform vec3 eye;
 uniform vec3 centre;
+uniform vec3 fillTowards;
+uniform vec3 fillColour;
 uniform vec3 rimTowards;
 uniform vec3 rimColour;
+uniform sampler2D depths;  // coarse depth map of the key light
+uniform float depthRange;  // depth of its volume [m]
+uniform float radius;      // half the width of its volume [m]
+uniform int haloCount;
+uniform vec4 halos[6];     // centre [m] and radius [m]
+uniform vec3 haloTints[6];
+uniform int footCount;
+uniform vec3 feet[8];      // x, z and radius of solids that stand on the floor [m]
 in vec3 at;
 layout (location = 0) out vec4 colour;
 
+const float LAMP = 0.10; // width of the penumbra per metre from the caster
+
+// Mean distance from the casters of the key light [m]; 0 if there are none.
+float casterDistance(vec3 s) {
+    float sum = 0.0;
+    float count = 0.0;
+    vec2 towards = vec2(0.14 / radius, 0.0);
+    for (int i = 0; i < 16; i++) {
+        float d = texture(depths, s.xy + sqrt((float(i) + 0.5) / 16.0) * towards).r;
+        towards = GOLDEN * towards;
+        if (d < s.z - 0.001) {
+            sum += s.z - d;
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? sum / count * depthRange : 0.0;
+}
+
 void main() {
     vec3 v = normalize(eye - at);
-    // Distance along the light from the plane of the sheet: the longer it is, the softer the shadow.
-    float distanceToSheet = max((centre.z - at.z) / keyTowards.z, 0.0);
-    float lit = keyVisibility(at + vec3(0.0, 0.004, 0.0), 3, clamp(0.35 + 0.55 * distanceToSheet, 0.5, 2.2), 0.0020);
-    float r = length(at.xz - centre.xz);
-    float pool = exp(-r * r * 0.115);
-    vec3 albedo = vec3(0.062, 0.068, 0.098);
-    vec3 light = albedo * keyColour * keyTowards.y * lit * pool * 0.62;
-    light += albedo * vec3(0.16, 0.21, 0.42) * (0.35 + 0.65 * pool) * (0.6 + 0.4 * lit);
-    // The polish reflects the rim light as a long warm streak.
-    float streak = pow(max(dot(reflect(-v, vec3(0.0, 1.0, 0.0)), rimTowards), 0.0), 14.0);
-    light += rimColour * streak * 0.05 * pool;
-    float fresnel = pow(1.0 - clamp(v.y, 0.0, 1.0), 5.0);
-    float fade = 1.0 - smoothstep(1.6, 6.2, r);
-    float cover = fade * mix(0.82, 0.55, fresnel);
+    vec3 s = (shadowFromWorld * vec4(at, 1.0)).xyz * 0.5 + 0.5;
+    float lit = 1.0;
+    float away = casterDistance(s);
+    if (away > 0.0) lit = softVisibility(s, clamp(LAMP * away, 0.012, 0.34) * 0.5 / radius, 0.0010);
+    // Solids that stand on the floor darken it around their feet.
+    float contact = 1.0;
+    for (int i = 0; i < footCount; i++) {
+        float far = max(length(at.xz - feet[i].xy) - feet[i].z, 0.0);
+        contact *= 1.0 - 0.75 * exp(-far / (0.03 + 0.25 * feet[i].z));
+    }
+    vec2 p = at.xz - centre.xz;
+    float r2 = dot(p, p);
+    float pool = exp(-0.16 * r2);
+    vec3 albedo = vec3(0.066, 0.070, 0.092);
+    vec3 light = albedo * keyColour * keyTowards.y * pool * 0.80 * (0.04 + 0.96 * lit);
+    light += albedo * fillColour * 0.45 * exp(-0.30 * dot(p - vec2(0.9, 0.5), p - vec2(0.9, 0.5)));
+    light += albedo * rimColour * 0.13 * exp(-0.35 * dot(p - vec2(1.7, -1.2), p - vec2(1.7, -1.2)));
+    light += albedo * vec3(0.10, 0.13, 0.30) * (0.3 + 0.7 * pool) * (0.7 + 0.3 * lit);
+    light *= contact;
+    // Reflections: a long streak of the rim light, and the halos.
+    vec3 mirror = reflect(-v, vec3(0.0, 1.0, 0.0));
+    float fresnel = 0.06 + 0.94 * pow(1.0 - clamp(v.y, 0.0, 1.0), 5.0);
+    light += rimColour * pow(max(dot(mirror, rimTowards), 0.0), 14.0) * 0.04 * pool;
+    for (int i = 0; i < haloCount; i++) {
+        vec3 to = halos[i].xyz - at;
+        vec3 off = to - mirror * max(dot(to, mirror), 0.0);
+        light += haloTints[i] * exp(-dot(off, off) * 5.0 / (halos[i].w * halos[i].w)) * (0.2 + 0.8 * fresnel) * 0.55;
+    }
+    float fade = 1.0 - smoothstep(1.8, 7.5, sqrt(r2));
+    float cover = fade * mix(0.86, 0.55, fresnel);
     colour = vec4(light, cover);
 }

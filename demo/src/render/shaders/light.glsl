@@ -8,6 +8,33 @@ uniform vec3 keyColour;
 uniform mat4 shadowFromWorld;
 uniform sampler2DShadow shadowMap;
 
+// Turns by the golden angle: point `i` of `n` of a spiral that fills the unit disc evenly (Vogel,
+// 1979) is sqrt((i + 0.5) / n) times a direction that has turned `i` times.
+const mat2 GOLDEN = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
+
+// Visibility of the key light through a disc of `radius` in the shadow map, around the projected
+// point `s`. Each pixel turns the disc by gradient noise (Jimenez, SIGGRAPH 2014), so that no steps
+// show.
+float softVisibility(vec3 s, float radius, float bias) {
+    vec2 border = min(s.xy, 1.0 - s.xy);
+    if (min(border.x, border.y) <= 0.0 || s.z >= 1.0) return 1.0;
+    float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    vec2 towards = radius * vec2(cos(turn), sin(turn));
+    float lit = 0.0;
+    for (int i = 0; i < 24; i++) {
+        vec2 at = s.xy + sqrt((float(i) + 0.5) / 24.0) * towards;
+        lit += texture(shadowMap, vec3(at, s.z - bias));
+        towards = GOLDEN * towards;
+    }
+    return mix(1.0, lit / 24.0, smoothstep(0.0, 0.06, min(border.x, border.y)));
+}
+
+// Radiance that a pixel may have: brighter samples would outweigh the others in the resolve and
+// leave stairs.
+vec3 limited(vec3 light) {
+    return clamp(light, 0.0, 3.5);
+}
+
 // Visibility of the key light: percentage-closer filter with a tent of (2n+1)² taps, `spread` texels apart.
 // Each tap is bilinear over four texels, so there are no gaps up to a spread of two texels.
 float keyVisibility(vec3 at, int n, float spread, float bias) {

@@ -5,9 +5,9 @@ uniform vec2 span;
 uniform sampler2D ink;
 
 in vec3 at;
-in vec3 facing;
 in vec2 uv;
-in float loose; // 1.0 at a torn edge, 0.0 one triangle further in
+centroid in vec3 facing;
+centroid in float loose; // 1.0 at a torn edge, 0.0 one triangle further in
 
 layout (location = 0) out vec4 colour;
 

@@ -1,13 +1,16 @@
 uniform vec3 lowColour;
 uniform vec3 highColour;
-uniform float aspect;
+uniform vec3 forward;
+uniform vec3 across; // to the right border of the screen at a distance of one
+uniform vec3 upward; // to the upper border
+uniform vec2 shift;   // lens shift
 in vec2 screen;
 layout (location = 0) out vec4 colour;
 void main() {
-    // Soft light behind the cloth, centred above the middle of the screen.
-    vec2 p = (screen - vec2(0.5, 0.60)) * vec2(min(aspect, 1.6), 1.0);
-    float halo = exp(-dot(p, p) * 4.2);
-    float rise = smoothstep(0.0, 1.0, screen.y);
-    vec3 base = mix(lowColour, highColour, 0.25 + 0.55 * rise);
-    colour = vec4(mix(base, highColour * 1.9, 0.75 * halo), 1.0);
+    vec2 p = 2.0 * screen - 1.0 - shift;
+    vec3 d = normalize(forward + across * p.x + upward * p.y);
+    // Haze over the horizon, which the floor fades into; dark above and below.
+    float haze = exp(-14.0 * (d.y + 0.10) * (d.y + 0.10));
+    vec3 base = mix(lowColour, highColour, haze);
+    colour = vec4(base + highColour * 0.7 * haze * haze, 1.0);
 }

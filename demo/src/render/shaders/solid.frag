@@ -31,5 +31,5 @@ void main() {
     light += dome * (albedo * 0.6 + fresnel * 0.5);
     // The reflection fades with height over the floor.
     float cover = mirrored > 0.5 ? 0.75 * exp(-1.9 * max(at.y - floorHeight, 0.0)) : 1.0;
-    colour = vec4(light * dim, cover);
+    colour = vec4(limited(light) * dim, cover);
 }

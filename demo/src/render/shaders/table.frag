@@ -36,12 +36,11 @@ void main() {
     if (far > 0.0) {
         // Penumbra: the farther the occluder, the softer the shadow.
         float soft = clamp(0.012 + 0.045 * far, 0.014, 0.30);
-        float texels = soft / (2.0 * radius) * float(textureSize(shadowMap, 0).x) / 3.0;
-        lit = keyVisibility(at, 3, max(texels, 0.6), 0.0002);
+        lit = softVisibility((shadowFromWorld * vec4(at, 1.0)).xyz * 0.5 + 0.5, soft / (2.0 * radius), 0.0002);
     }
     float open = 1.0;
     if (length(at - middle) < radius + 2.0) {
-        open = 0.28 + 0.72 * skyLight(at + vec3(0.0, 0.03, 0.0), vec3(0.0, 1.0, 0.0), 3.0);
+        open = 0.28 + 0.72 * skyLight(at + vec3(0.0, 0.03, 0.0), vec3(0.0, 1.0, 0.0), 7.0);
     }
     vec3 light = GROUND * (ambientLight(vec3(0.0, 1.0, 0.0), open) + keyColour * lit * keyTowards.y);
     float fade = smoothstep(9.0, 34.0, length(at.xz));

@@ -31,10 +31,11 @@ float noise(vec2 p) {
 }
 
 // Bump of the surface along weft and warp: crossing threads, and uneven yarn (slub). Both fade out
-// before they alias.
-vec2 weave(vec2 m, float footprint) {
+// before they alias; `unseen` returns the variance of the slopes that have faded.
+vec2 weave(vec2 m, float footprint, out float unseen) {
     vec2 t = m * cloth.x;
     float near = 1.0 - smoothstep(0.24, 0.56, footprint * cloth.x);
+    unseen = 0.25 * cloth.y * cloth.y * (1.0 - near);
     vec2 bump = vec2(0.0);
     if (near > 0.0) {
         if (cloth.w == 1.0) {
@@ -54,7 +55,7 @@ vec2 weave(vec2 m, float footprint) {
         vec2 cell = fract(m / 0.009) - 0.5;
         bump += fine * 0.25 * cell * exp(-cell * cell * 160.0) * 12.0;
     }
-    float fine = 1.0 - smoothstep(0.2, 0.7, footprint * 65.0);
+    float fine = 1.0 - smoothstep(0.05, 0.25, footprint * 65.0);
     vec2 slub = vec2(
         noise(vec2(m.x * 65.0, m.y * 2.5)) - 0.5,
         noise(vec2(m.x * 2.0 + 71.0, m.y * 65.0)) - 0.5);
@@ -96,7 +97,7 @@ vec3 fabricColour(bool front, vec2 uv, float footprint, out float hem) {
         // Denim: uneven indigo along the warp, and white weft between the ridges.
         float streak = noise(vec2(m.x * 210.0, m.y * 3.0)) - 0.5;
         float fade = noise(m * 2.6 + 11.0) - 0.5;
-        c *= 1.0 + 0.30 * streak * (1.0 - smoothstep(0.002, 0.02, footprint)) + 0.22 * fade;
+        c *= 1.0 + 0.40 * streak * (1.0 - smoothstep(0.003, 0.02, footprint)) + 0.34 * fade;
         float near = 1.0 - smoothstep(0.24, 0.56, footprint * cloth.x);
         float ridge = 0.5 + 0.5 * sin(PI * (m.x + m.y) * cloth.x);
         vec3 white = vec3(0.50, 0.54, 0.62);
