@@ -46,7 +46,7 @@ const FOLD_COSINE: f32 = 0.2;
 
 /// Cloth that passed through a feature goes back to this share of the gap. The whole gap at once would
 /// not let cloth come to rest.
-const PASSED_GAP: f32 = 0.2;
+const PASSED_GAP: f32 = 0.5;
 
 /// Pairs that are farther apart than this many gaps before the first round are not tested.
 pub(super) const CLOSE_GAPS: f32 = 4.0;
