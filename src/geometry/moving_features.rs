@@ -91,9 +91,9 @@ impl FeatureSources {
         [self.edges.len(), self.vertices.len()].map(|count| count as u32)
     }
 
-    /// Calls `visit` with every edge that has a bend for `is_sharp` and a first triangle for
-    /// `is_near`, with the vertices at their positions at one of two moments, and with both its ends as vertex
-    /// features.
+    /// Calls `visit` with every edge whose first triangle fulfils `is_near` and whose bend fulfils
+    /// `is_sharp` at one of two moments, and with both its ends as vertex features. `moments` are the
+    /// positions of all vertices then [m].
     pub fn visit_sharp_edges(
         &self,
         moments: [&[Vec3]; 2],

@@ -7,8 +7,9 @@
 //! ```
 //! All features of the mesh are kept, also those of flat places, which may bend later; a flat one
 //! counts as smooth. In a search for pairs everything stands where it is then, and knows its motion
-//! in the tick. The first search of a tick measures how much all edges near the cloth bend, and poses
-//! those that are sharp; other features are posed only beside long triangles.
+//! in the tick. The first search of a tick measures how much all edges near the cloth bend, then and
+//! at the end of the tick, and poses those that are sharp; other features are posed only beside long
+//! triangles.
 //!
 //! Reads vertices and the pairs near the cloth; writes its triangles and features.
 //! Invariant: contacts depend only on the vertices at both ends of the tick, never on earlier poses.
@@ -322,7 +323,8 @@ impl MovingSurface {
         self.some = some;
     }
 
-    /// Lists the triangles that overlap `bounds` in the tick, and the sharp features at `moment`.
+    /// Lists the triangles that overlap `bounds` in the tick, and the features that are sharp at `moment`
+    /// or at the end of the tick.
     fn list_near(
         &mut self,
         vertices: MovingVertices<'_>,

@@ -154,7 +154,7 @@ fn an_outer_sheet_falls_with_a_half_that_is_cut_off_the_inner_one() {
     assert!(lowest(&inner) < -0.5 && lowest(&outer) < -0.5, "{}", lowest(&outer));
 }
 
-/// A sheet that keeps from itself. Layers with folds that cross leave another one no way out.
+/// A sheet with self-collision. Between folds that cross, another layer would have no room.
 fn folding_sheet(nodes: u32, width: f32, height: f32) -> Cloth {
     let mut desc = free_sheet(nodes, width, height);
     desc.settings.self_collision = SelfCollision::Surface;

@@ -9,8 +9,8 @@
 //! below the contact plane near the feature. Outside the cone another feature or a face is nearer.
 //! So every contact normal lies between the normals of the adjacent faces. If the cloth is deeper
 //! than the center of the shape, a contact counts only if the cloth passed through the feature in
-//! this substep. Beside two-sided surfaces cloth that passed through a feature goes back to its side
-//! whatever the normal: at a saddle or at a fold the cone of no feature need hold it.
+//! this substep. Cloth that passed through a two-sided feature goes back to its side, whatever the
+//! normal: at a saddle or a sharp fold the normal may lie in no cone.
 //!
 //! Reads local particles and candidate pairs; writes positions through [`PushAccumulator`].
 //! Invariant: a pair with a positive height at or above the gap is not moved.
@@ -36,16 +36,16 @@ const MIN_SINE2: f32 = 1.0e-4;
 /// Cloth is fast if it moves farther than this many gaps in a substep.
 const FAST_GAPS: f32 = 4.0;
 
-/// Cloth behind a two-sided feature whose corners were in front of its faces came through it, unless it
-/// was deeper than this share of the gap: then it rests on the other side of a shallow bend.
+/// Cloth that started behind a two-sided feature, with all corners in front of its faces, counts as
+/// pierced by the feature up to this depth, in gaps. Deeper cloth lies on the inner side of the bend.
 const SHALLOW: f32 = 0.3;
 
-/// At a two-sided feature that bends by almost half a turn, the side that `outward` gives a normal with
-/// a smaller cosine than this to it is arbitrary.
+/// At a sharp fold a contact normal is almost perpendicular to `outward`. Below this cosine between
+/// both, the sign of the normal is arbitrary.
 const FOLD_COSINE: f32 = 0.2;
 
-/// Cloth that passed through a feature goes back to this share of the gap. The whole gap at once would
-/// not let cloth come to rest.
+/// Cloth that passed through a feature returns to this fraction of the gap on its own side. With the
+/// whole gap it would not come to rest.
 const PASSED_GAP: f32 = 0.5;
 
 /// Pairs that are farther apart than this many gaps before the first round are not tested.
@@ -194,8 +194,8 @@ fn edge_contact(
             height: (start[0] - edge.ends[0]).dot(own),
             is_beside: is_fast && edge_crossing(edge, start, own).is_none(),
         });
-        let corners = start.iter().map(|x| edge.is_outside(*x));
-        if edge.sides == FeatureSides::TwoSided && !was_outside(own, gap, corners) {
+        let are_outside = start.iter().map(|x| edge.is_outside(*x));
+        if edge.sides == FeatureSides::TwoSided && !was_outside(own, gap, are_outside) {
             return passed();
         }
         let start_height = corrected_start_height(start_height, gap, is_fast, own);
@@ -229,13 +229,17 @@ struct StartPlane {
     is_beside: bool,
 }
 
-/// Returns whether cloth started on the outer side of a two-sided feature, from its plane and, just
-/// behind it, from whether each of its corners was in front of a face of the feature. Corners of a long
-/// triangle may be behind them all, where the surface bends away, or in front of the faces on the inner
-/// side, where it bends back.
-fn was_outside(own: Option<StartPlane>, gap: f32, mut corners: impl Iterator<Item = bool>) -> bool {
+/// Returns whether cloth started on the outer side of a two-sided feature. Its height decides; just
+/// behind the feature, each corner must also have been in front of a face. Corners alone do not decide:
+/// those of a long triangle may lie behind both faces where the surface bends away, and in front of one
+/// where it bends back.
+fn was_outside(
+    own: Option<StartPlane>,
+    gap: f32,
+    mut are_outside: impl Iterator<Item = bool>,
+) -> bool {
     let height = own.map_or(0.0, |own| own.height);
-    height > 0.0 || height >= -SHALLOW * gap && corners.all(|is_outside| is_outside)
+    height > 0.0 || height >= -SHALLOW * gap && are_outside.all(|is_outside| is_outside)
 }
 
 /// Returns the height at which a point of the cloth started, given that height along the normal of
@@ -251,8 +255,8 @@ fn corrected_start_height(height: f32, gap: f32, is_fast: bool, own: Option<Star
 }
 
 /// Returns the normal perpendicular to an edge feature and a cloth edge, and the height of the
-/// cloth edge along it [m]; `None` if the normal lies outside the normal cone of the feature, and
-/// where its faces lie in one plane now, so that it has none.
+/// cloth edge along it [m]; `None` if the normal lies outside the normal cone of the feature, or if
+/// the faces of the feature lie in one plane now, so that it has no cone.
 fn edge_normal(edge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<(Vec3, f32)> {
     if edge.bend.angle == 0.0 {
         return None;
@@ -275,9 +279,9 @@ fn outward_normal(edge: &EdgeFeature, [a, b]: [Vec3; 2]) -> Option<Vec3> {
     Some(if normal.dot(edge.outward) < 0.0 { -normal } else { normal })
 }
 
-/// Returns the contact of a cloth edge, from its particles and their positions at both ends of the
-/// substep, that passed through a two-sided edge feature in it, whatever the normal: it goes back to
-/// its side.
+/// Returns the contact that moves a cloth edge back to its side if it passed through a two-sided edge
+/// feature in this substep; otherwise `None`. The edge is given by its particles and by their positions
+/// at the start and at the end of the substep.
 #[inline(never)]
 fn edge_passage(
     edge: &EdgeFeature,
@@ -302,7 +306,8 @@ fn edge_passage(
     Some(([i, j, i], TriangleContact { weights: [1.0 - fraction, fraction, 0.0], penetration }))
 }
 
-/// Returns the contact of a cloth triangle likewise, that a two-sided vertex feature passed through.
+/// Returns the contact that moves a cloth triangle back to its side if a two-sided vertex feature passed
+/// through it in this substep; otherwise `None`.
 #[inline(never)]
 fn vertex_passage(
     vertex: &VertexFeature,
@@ -362,8 +367,8 @@ fn vertex_contact(
             let is_beside = is_fast && projected_weights(start, vertex.position, own).is_none();
             StartPlane { height: p.dot(own), is_beside }
         });
-        let outside = start.iter().map(|x| features.is_outside_vertex(vertex, *x));
-        if vertex.sides == FeatureSides::TwoSided && !was_outside(own, gap, outside) {
+        let are_outside = start.iter().map(|x| features.is_outside_vertex(vertex, *x));
+        if vertex.sides == FeatureSides::TwoSided && !was_outside(own, gap, are_outside) {
             return passed();
         }
         let start_height = corrected_start_height(start_height, gap, is_fast, own);
@@ -382,7 +387,7 @@ fn vertex_contact(
 }
 
 /// Returns the outward normal of a cloth triangle at a vertex feature, and the height of the
-/// triangle along it [m]; `None` if the normal lies outside the normal cone of the feature, and where
+/// triangle along it [m]; `None` if the normal lies outside the normal cone of the feature, or if
 /// its faces lie in one plane now.
 fn vertex_normal(
     features: &Features,

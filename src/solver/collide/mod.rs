@@ -464,7 +464,7 @@ fn solve_rounds(
     }
     pushes.set_rollback(None);
     if shape.deforms() {
-        // What carries a corner along is the motion of features near it, not of the face below it.
+        // A corner was carried along by features near it, which may move into the face below it.
         let own = |contact: &ColliderContact| contact.body == particles.body;
         let first = particles.contacts.iter().position(own).unwrap_or(particles.contacts.len());
         for at in first..particles.contacts.len() {

@@ -11,9 +11,8 @@ from numpy.typing import ArrayLike
 from ._colliders import Colliders
 from ._convert import (
     Vec3Like,
-    check_length,
+    set_triangles,
     to_choice,
-    to_floats,
     to_number,
     to_uint,
     to_uints,
@@ -140,17 +139,10 @@ class Cloth(Parameters, Particles, Pins, Topology, Colliders, Outputs):
         Raises `Error` for an invalid field, and if the mesh cannot be repaired: a triangle has an
         area that is not finite, or no triangle has an area.
         """
-        points = to_floats(positions, "positions", ("n", 3))
-        triangles = to_uints(indices, "indices", ("n", 3))
         desc = MuslinMeshDesc()
         sizes = (sizeof(desc), sizeof(MuslinMaterial), sizeof(MuslinSettings))
         lib.muslin_mesh_desc_init_sized(desc, *sizes)
-        desc.positions, desc.vertex_count = points.ctypes.data, len(points)
-        desc.indices, desc.index_count = triangles.ctypes.data, triangles.size
-        texture = None if uvs is None else to_floats(uvs, "uvs", ("n", 2))
-        if texture is not None:
-            check_length(texture, "uvs", len(points), "positions")
-            desc.uvs = texture.ctypes.data
+        _kept = set_triangles(desc, positions, indices, uvs)
         held = None if pinned is None else to_uints(pinned, "pinned", ("n",))
         if held is not None:
             desc.pinned, desc.pinned_count = held.ctypes.data, len(held)

@@ -144,6 +144,22 @@ def to_uints(value: ArrayLike, field: str, shape: tuple[str | int, ...]) -> NDAr
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
+def set_triangles(
+    desc: Any, positions: ArrayLike, indices: ArrayLike, uvs: ArrayLike | None
+) -> tuple[NDArray[Any], ...]:
+    """Points a descriptor to the triangles of a mesh. Keep the returned arrays while it is used."""
+    points = to_floats(positions, "positions", ("n", 3))
+    triangles = to_uints(indices, "indices", ("n", 3))
+    desc.positions, desc.vertex_count = points.ctypes.data, len(points)
+    desc.indices, desc.index_count = triangles.ctypes.data, triangles.size
+    if uvs is None:
+        return points, triangles
+    texture = to_floats(uvs, "uvs", ("n", 2))
+    check_length(texture, "uvs", len(points), "positions")
+    desc.uvs = texture.ctypes.data
+    return points, triangles, texture
+
+
 def check_length(array: NDArray[Any], field: str, count: int, of: str) -> None:
     """Raises an error unless an array has `count` rows, one per entry of the list `of`."""
     if len(array) != count:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._base import ClothBase
-from ._convert import check_length, to_floats, to_number, to_uints
+from ._convert import set_triangles, to_number
 from ._errors import Error
 from ._generated.constants import Status
 from ._generated.structs import MuslinSkin, MuslinSkinDesc, MuslinView
@@ -44,14 +44,7 @@ class Skin:
         """See `Cloth.skin`."""
         desc = MuslinSkinDesc()
         init(desc, "muslin_skin_desc_init_sized")
-        points = to_floats(positions, "positions", ("n", 3))
-        triangles = to_uints(indices, "indices", ("n", 3))
-        desc.positions, desc.vertex_count = points.ctypes.data, len(points)
-        desc.indices, desc.index_count = triangles.ctypes.data, triangles.size
-        texture = None if uvs is None else to_floats(uvs, "uvs", ("n", 2))
-        if texture is not None:
-            check_length(texture, "uvs", len(points), "positions")
-            desc.uvs = texture.ctypes.data
+        _kept = set_triangles(desc, positions, indices, uvs)
         desc.smoothness = to_number(smoothness, "smoothness")
         handle, live = MuslinSkin(), cloth._live
         lib.muslin_skin_create(live, desc, handle)
