@@ -23,6 +23,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bends::{BendHistogram, SurfaceBend};
 use crate::geometry::bvh::Bvh;
 use crate::geometry::relative_motion::{PartMotion, PointMotion, RigidStep};
+use crate::geometry::swept_box::SweptBox;
 use crate::math::max;
 use crate::math::sort::{sort_by, sort_groups};
 use glam::Vec3;
@@ -237,6 +238,21 @@ impl Features {
             Some(motion) => bounds.expanded(motion.whole.longest()),
             None => bounds,
         }
+    }
+
+    /// Returns the box of a feature that moves, for times that are these shares of a tick before and
+    /// after now.
+    pub fn swept_box(&self, id: u32, shares: [f32; 2]) -> SweptBox {
+        let now = match self.get(id) {
+            Feature::Edge(edge) => Aabb::from_points(edge.ends),
+            Feature::Vertex(_, vertex) => Aabb { low: vertex.position, high: vertex.position },
+        };
+        let whole = self.motions.get(id as usize).map_or(PartMotion::default(), |one| one.whole);
+        SweptBox::new(
+            now,
+            shares.map(|share| whole.mean * share),
+            shares.map(|share| whole.spread * share),
+        )
     }
 
     /// Returns how far points move relative to a feature, at most [m]; 0 if features do not move.

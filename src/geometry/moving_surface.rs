@@ -20,6 +20,7 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{Features, ShapeFeatures};
 use crate::geometry::moving_features::FeatureSources;
 use crate::geometry::relative_motion::{PartMotion, RigidStep};
+use crate::geometry::swept_box::MovingBox;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::{lerp, max};
 use glam::Vec3;
@@ -132,14 +133,16 @@ impl MovingVertices<'_> {
         self.next[vertex as usize] - self.last[vertex as usize]
     }
 
-    /// The box of some vertices at both ends of the tick.
-    fn swept<const COUNT: usize>(&self, vertices: [u32; COUNT]) -> Aabb {
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for v in vertices {
-            let (last, next) = (self.last[v as usize], self.next[v as usize]);
-            (low, high) = (low.min(last).min(next), high.max(last).max(next));
-        }
-        Aabb { low, high }
+    /// The boxes of some vertices at both ends of the tick.
+    fn boxes<const COUNT: usize>(&self, corners: [u32; COUNT]) -> MovingBox {
+        let at = |all: &[Vec3]| {
+            let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+            for v in corners {
+                (low, high) = (low.min(all[v as usize]), high.max(all[v as usize]));
+            }
+            Aabb { low, high }
+        };
+        MovingBox::new([at(self.last), at(self.next)])
     }
 
     /// The motion of a part with these corners in the whole tick.
@@ -190,7 +193,7 @@ impl MovingSurface {
         self.is_feature_tree_current = false;
         let corners = core::mem::take(&mut self.corners);
         if let Some((surface, _)) = self.parts() {
-            surface.refit(&|triangle| vertices.swept(corners[triangle as usize]));
+            surface.refit(&|triangle| vertices.boxes(corners[triangle as usize]));
         }
         self.corners = corners;
     }
@@ -203,8 +206,8 @@ impl MovingSurface {
         let sources = core::mem::take(&mut self.sources);
         if let Some((_, features)) = self.parts() {
             features.refit(&|id| match sources.edge_ends(id) {
-                Some(ends) => vertices.swept(ends),
-                None => vertices.swept([sources.vertex(id)]),
+                Some(ends) => vertices.boxes(ends).bounds(),
+                None => vertices.boxes([sources.vertex(id)]).bounds(),
             });
         }
         self.sources = sources;
@@ -469,7 +472,7 @@ impl MovingSurface {
             let own = self.corners[triangle as usize];
             let [a, b, c] = own.map(|v| vertices.motion(v));
             let relative2 = (path - (a + b + c) * (1.0 / 3.0)).length_squared();
-            if relative2 > longest2 && vertices.swept(own).overlaps(&bounds) {
+            if relative2 > longest2 && vertices.boxes(own).bounds().overlaps(&bounds) {
                 longest2 = relative2;
             }
         }

@@ -325,6 +325,7 @@ fn rebuild(world: &mut World, margin: f32, [moment, length]: [f32; 2], is_partia
                     let (pairs, moved) = (&nearby.earlier, &nearby.moved[..]);
                     let earlier = is_partial.then_some(Earlier { pairs, range, moved });
                     let shape = (shape, sharp);
+                    let search = (search, shares, moment);
                     candidates.push_pairs_of_deforming(shape, &world.mesh, bounds, search, earlier)
                 }
                 None => {
