@@ -406,7 +406,7 @@ pub(super) fn ends_by_vertex(edges: &[[u32; 2]]) -> Vec<EdgeEnd> {
 }
 
 /// Returns, for each point, the first point in the same place.
-fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
+pub(super) fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
     // Adding zero turns minus zero into zero.
     let bits = |i: u32| (positions[i as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();

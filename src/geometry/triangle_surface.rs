@@ -18,6 +18,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
 use crate::geometry::closest_points::{interpolate, triangle_to_origin};
 use crate::geometry::relative_motion::{PartMotion, PointMotion};
+use crate::geometry::solid_mesh::NearestPlace;
 use crate::geometry::swept_box::{MovingBox, SweptBox};
 use crate::math::{TINY, max};
 use glam::Vec3;
@@ -121,6 +122,20 @@ impl TriangleSurface {
     /// Returns the triangles whose boxes may overlap `bounds`.
     pub fn overlapping(&self, bounds: Aabb) -> impl Iterator<Item = u32> + '_ {
         self.tree.overlapping(bounds)
+    }
+
+    /// Shows the triangles near a point, posed or as `corners` gives them, to a search for the nearest
+    /// place.
+    pub fn visit_near(
+        &self,
+        nearest: &mut NearestPlace,
+        corners: Option<&dyn Fn(u32) -> [Vec3; 3]>,
+    ) {
+        let (point, squared) = nearest.start();
+        self.tree.visit_near(point, squared, &mut |triangle| {
+            let posed = || self.triangles[triangle as usize].corners;
+            nearest.visit(corners.map_or_else(posed, |corners| corners(triangle)))
+        });
     }
 
     /// Returns how far a triangle moved near a point that was at `from` at the start of the substep

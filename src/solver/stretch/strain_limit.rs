@@ -10,7 +10,8 @@
 //!      every round                  a sweep as in 1 (forward, backward in turn),
 //!                                   then colliders, anchors and sewn pairs
 //! 3. Repeat: both ends of every l > (1 + 0.996 e) r go to their rollback         roll_back
-//!    positions, until none moves; then colliders
+//!    positions, until none moves; then colliders. If a link is longer then
+//!    than before step 3, step 3 is undone
 //! 4. Velocities follow the corrections                                           update_velocities
 //! ```
 //! The sweeps are those of Provot, "Deformation constraints in a mass-spring model", Graphics
@@ -163,10 +164,7 @@ fn project_all(world: &mut World, limit: f32) {
         // If anchors hold the cloth apart now, they did so in the last tick too, and there is no
         // valid state to roll back to. The cloth contracts as far as the anchors permit.
         if !(was_over && has_anchors) {
-            roll_back(world, limit);
-            // Colliders take precedence: what they swept over cannot stay where it was. What rests on
-            // them may: pushing it farther out in every tick would never let it rest.
-            collide::project_out(world, Projection::Surface);
+            roll_back_unless_worse(world, limit);
         }
         anchors::project_at_end(world);
         update_velocities(world);
@@ -229,6 +227,24 @@ fn is_held_apart(world: &World, limit: f32) -> bool {
             span.length() > set.length[i] * limit
         })
     })
+}
+
+/// Rolls back, and then pushes the cloth out of colliders. They take precedence: what they swept over
+/// cannot stay where it was. Where they then hold the cloth farther apart than the rounds left it, it
+/// goes back there, and the excess is reported.
+fn roll_back_unless_worse(world: &mut World, limit: f32) {
+    let excess = largest_excess(world, limit);
+    if excess > 0.0 {
+        world.scratch.rollback.before.copy_from(&world.particles.x);
+    }
+    roll_back(world, limit);
+    // What rests on a collider may stay within a part of the gap: pushing it farther out in every
+    // tick would never let it rest.
+    collide::project_out(world, Projection::Surface);
+    if excess > 0.0 && largest_excess(world, limit) > excess {
+        world.particles.x.copy_from(&world.scratch.rollback.before);
+        collide::project_out(world, Projection::Surface);
+    }
 }
 
 /// Moves the ends of every link that is too long to their rollback positions (see `rollback`), and
