@@ -43,6 +43,7 @@
 //! `violations` and one event. Invariant: a link that was within the limit a tick ago is within
 //! it now.
 
+use crate::geometry::collision_shape::CollisionShape;
 use crate::math::columns::Columns;
 use crate::math::max;
 use crate::model::links::{LinkKind, Links};
@@ -52,6 +53,7 @@ use crate::solver::stretch::distance::project_upper_bound;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{rollback, sewn_pairs, tethers};
 use crate::solver::world::World;
+use crate::state::colliders::ColliderBody;
 use crate::state::events::EventKind;
 use glam::Vec3;
 
@@ -60,6 +62,9 @@ const MAX_ROUNDS: u32 = 24;
 
 /// The largest number of rounds for a cloth that was held apart and cannot roll back.
 const MAX_CONTRACTION_ROUNDS: u32 = 2000;
+
+/// The same among colliders, where it goes on in the next tick: a tick costs a few normal ones.
+const MAX_CONTRACTION_ROUNDS_AMONG_COLLIDERS: u32 = 100;
 
 /// The rounding margin, as a share of `max_stretch`: the solver aims at a limit below the
 /// guaranteed one.
@@ -122,7 +127,12 @@ fn project_all(world: &mut World, limit: f32) {
     tethers::refresh_pin_positions(world);
     let has_colliders = world.colliders.iter().next().is_some();
     let mut excess = f32::INFINITY;
-    for round in 0..if is_free_again { MAX_CONTRACTION_ROUNDS } else { MAX_ROUNDS } {
+    let most = match (is_free_again, has_colliders) {
+        (true, true) => MAX_CONTRACTION_ROUNDS_AMONG_COLLIDERS,
+        (true, false) => MAX_CONTRACTION_ROUNDS,
+        (false, _) => MAX_ROUNDS,
+    };
+    for round in 0..most {
         if is_free_again {
             tethers::project(world, target);
         }
@@ -231,9 +241,15 @@ fn is_held_apart(world: &World, limit: f32) -> bool {
 
 /// Rolls back, and then pushes the cloth out of colliders. They take precedence: what they swept over
 /// cannot stay where it was. Where they then hold the cloth farther apart than the rounds left it, it
-/// goes back there, and the excess is reported.
+/// goes back there, and the excess is reported. Beside surfaces with two sides it stays rolled back:
+/// cloth that is pulled through one at a pinch could not come back.
 fn roll_back_unless_worse(world: &mut World, limit: f32) {
-    let excess = largest_excess(world, limit);
+    let is_two_sided = |body: &ColliderBody| {
+        let shape = body.collision_shape();
+        body.desc.solid == 0.0 && matches!(shape, Some(CollisionShape::TriangleSurface(..)))
+    };
+    let can_return = !world.colliders.iter().any(|body| is_two_sided(body));
+    let excess = if can_return { largest_excess(world, limit) } else { 0.0 };
     if excess > 0.0 {
         world.scratch.rollback.before.copy_from(&world.particles.x);
     }
