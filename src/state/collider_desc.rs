@@ -35,8 +35,8 @@ pub enum Shape {
     /// rest; it keeps moving by some mm/s.
     Convex = 4,
     /// Triangles `indices` over `positions`. Both sides of a triangle are outside and cloth stays
-    /// on the side where it is, so the mesh need be neither closed nor consistently wound. Its
-    /// minimum gap is 0.1 mm.
+    /// on the side where it is, so the mesh need be neither closed nor consistently wound; with
+    /// `solid` a closed one pushes out what is inside. Its minimum gap is 0.1 mm.
     Mesh = 5,
     /// Terrain: `columns` × `rows` heights at `spacing` along the local x and z axes, starting at
     /// `position`. It is solid below the surface, as deep as it is wide, and has no side walls.

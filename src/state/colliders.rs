@@ -89,6 +89,8 @@ pub(crate) struct ColliderBody {
     pub pending: Impulse,
     /// The deformation of a mesh, once the host has given new vertices.
     deformation: Option<Box<Deformation>>,
+    /// Whether it is the surface of another cloth, which `collide_with` added.
+    pub is_layer: bool,
     /// A point in the local frame [m]: that of `ColliderDesc::shape_center`, or a point of a plane
     /// near the origin of the cloth.
     center: Vec3,
@@ -123,6 +125,7 @@ impl ColliderBody {
             impulse: Impulse::default(),
             pending: Impulse::default(),
             deformation: None,
+            is_layer: false,
             center,
             final_pose: pose,
             arrived: Some(pose),
