@@ -66,6 +66,10 @@ const MAX_CONTRACTION_ROUNDS: u32 = 2000;
 /// The same among colliders, where it goes on in the next tick: a tick costs a few normal ones.
 const MAX_CONTRACTION_ROUNDS_AMONG_COLLIDERS: u32 = 100;
 
+/// The first round that pushes triangles out of colliders too. Before, particles are enough to see
+/// whether the limit can hold; where it cannot, the cloth may stay where the last round leaves it.
+const FIRST_SURFACE_ROUND: u32 = 16;
+
 /// The rounding margin, as a share of `max_stretch`: the solver aims at a limit below the
 /// guaranteed one.
 const ROUNDING_MARGIN: f32 = 4.0e-3;
@@ -150,7 +154,11 @@ fn project_all(world: &mut World, limit: f32) {
                 .rev()
                 .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Backward, target));
         }
-        collide::project_out(world, Projection::Particles);
+        let is_late = !is_free_again && round >= FIRST_SURFACE_ROUND;
+        collide::project_out(
+            world,
+            if is_late { Projection::Surface } else { Projection::Particles },
+        );
         anchors::project_at_end(world);
         sewn_pairs::join(world);
         if find_over_stretched(world, limit).is_none() {
