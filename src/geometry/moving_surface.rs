@@ -135,14 +135,9 @@ impl MovingVertices<'_> {
     }
 
     /// The boxes of some vertices at both ends of the tick.
+    #[inline(never)]
     fn boxes<const COUNT: usize>(&self, corners: [u32; COUNT]) -> MovingBox {
-        let at = |all: &[Vec3]| {
-            let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-            for v in corners {
-                (low, high) = (low.min(all[v as usize]), high.max(all[v as usize]));
-            }
-            Aabb { low, high }
-        };
+        let at = |all: &[Vec3]| Aabb::from_points(corners.map(|v| all[v as usize]));
         MovingBox::new([at(self.last), at(self.next)])
     }
 

@@ -63,6 +63,7 @@ impl NearestPlace {
     }
 
     /// Takes a triangle into account. Returns the square of the distance [m²] to search from then on.
+    #[inline(never)]
     pub fn visit(&mut self, corners: [Vec3; 3]) -> f32 {
         let relative = corners.map(|corner| corner - self.point);
         let way = interpolate(relative, triangle_to_origin(relative));

@@ -32,6 +32,7 @@ impl SweptBox {
     /// Makes the box of a part that is in `now`, was at `now` minus `back` when the substep began, and
     /// will be at `now` plus `forward` when the tick ends; with the distances by which its corners may
     /// be off that, forward and back [m].
+    #[inline(never)]
     pub fn new(now: Aabb, [forward, back]: [Vec3; 2], spread: [f32; 2]) -> Self {
         let ways = [(-back, spread[1]), (Vec3::ZERO, 0.0), (forward, spread[0])];
         let ends = |end: Vec3, sign: f32| {
@@ -44,7 +45,7 @@ impl SweptBox {
     }
 
     /// Grows the box until it contains `other`.
-    #[inline(always)]
+    #[inline(never)]
     pub fn merge(&mut self, other: &Self) {
         let ends = self.low.iter_mut().chain(&mut self.minus_high);
         for (own, other) in ends.zip(other.low.iter().chain(&other.minus_high)) {
@@ -53,7 +54,7 @@ impl SweptBox {
     }
 
     /// Returns whether the parts may come together at any time.
-    #[inline(always)]
+    #[inline(never)]
     pub fn may_meet(&self, other: &Self) -> bool {
         let (mut above, mut below) = (XYZ_MASK, XYZ_MASK);
         for time in 0..3 {
@@ -85,7 +86,7 @@ impl MovingBox {
     }
 
     /// Grows the box until it contains `other`.
-    #[inline(always)]
+    #[inline(never)]
     pub fn merge(&mut self, other: &Self) {
         let ends = self.low.iter_mut().chain(&mut self.minus_high);
         for (own, other) in ends.zip(other.low.iter().chain(&other.minus_high)) {
@@ -101,7 +102,7 @@ impl MovingBox {
 
     /// Returns whether the part may come together with another one, whose box is given at these times
     /// of the tick.
-    #[inline(always)]
+    #[inline(never)]
     pub fn may_meet(&self, other: &SweptBox, times: [f32; 3]) -> bool {
         let (mut above, mut below) = (XYZ_MASK, XYZ_MASK);
         for (time, at) in times.into_iter().enumerate() {

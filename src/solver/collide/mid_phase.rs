@@ -200,6 +200,7 @@ impl ColliderPairs {
     }
 
     /// Sets the boxes of particles for a search.
+    #[inline(never)]
     fn set_particles(&mut self, distance: f32) {
         self.swept_particles.clear();
         let boxes = self.motion_bounds.iter().map(|one| one.swept_box(distance));
@@ -241,7 +242,7 @@ impl ColliderPairs {
     /// tick that are left and that the substep has taken, at `moment` of it.
     pub(super) fn push_pairs_of_deforming(
         &mut self,
-        (shape, sharp): (&CollisionShape, impl Iterator<Item = u32>),
+        (shape, sharp): (&CollisionShape, &mut dyn Iterator<Item = u32>),
         mesh: &Mesh,
         motion_bounds: &mut Vec<MotionBound>,
         (search, shares, moment): (PairSearch, [f32; 2], f32),
@@ -263,6 +264,7 @@ impl ColliderPairs {
 
     /// Pushes the pairs of a block of triangles and the given features. `has_starts` says that it lists
     /// where those of each triangle start.
+    #[inline(never)]
     fn push_block(
         &mut self,
         (features, mesh): (&Features, &Mesh),
@@ -383,11 +385,11 @@ impl ColliderPairs {
                 Some(own) => {
                     let all = own.overlapping(block_bounds);
                     let sharp = all.filter(|id| !search.is_smooth(&own.features.bend(*id)));
-                    set_given(given, &own.features, sharp, [0.0; 2]);
+                    set_given(given, &own.features, &mut { sharp }, [0.0; 2]);
                     &own.features
                 }
                 None => {
-                    set_given(given, &terrain, terrain.ids_since(earlier), [0.0; 2]);
+                    set_given(given, &terrain, &mut terrain.ids_since(earlier), [0.0; 2]);
                     &terrain
                 }
             };
@@ -400,10 +402,11 @@ impl ColliderPairs {
 
 /// Sets the features that a search tests, and the boxes of their groups, for times that are these shares
 /// of a tick after and before now.
+#[inline(never)]
 fn set_given(
     (given, groups): (&mut Vec<(u32, SweptBox)>, &mut Vec<SweptBox>),
     features: &Features,
-    ids: impl Iterator<Item = u32>,
+    ids: &mut dyn Iterator<Item = u32>,
     shares: [f32; 2],
 ) {
     given.clear();
