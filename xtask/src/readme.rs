@@ -105,8 +105,10 @@ fn blocks_of(page: &str, text: &str) -> Result<Vec<Block>> {
             Some(_) if open => open = false,
             Some(language) => {
                 open = true;
+                // VitePress takes the name of a tab after the language.
+                let language = language.split_whitespace().next().unwrap_or_default();
                 blocks.push(Block {
-                    language: language.trim().to_string(),
+                    language: language.to_string(),
                     page: page.to_string(),
                     line: at + 2,
                     text: String::new(),

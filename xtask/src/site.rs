@@ -118,7 +118,8 @@ pub fn test() -> Result {
     let paths =
         [("MUSLIN_SHOTS", &shots), ("MUSLIN_SITE", &dir()), ("MUSLIN_SITE_MODULES", &modules)];
     browser::node_test("tests/web/site.test.mjs", &server.url, &paths)?;
-    files::with_suffix(&shots, ".png")?.iter().try_for_each(|shot| picture::check(shot))
+    browser::node_test("tests/web/playground.test.mjs", &server.url, &[])?;
+    picture::check(&shots.join("landing-1440-dark.png"))
 }
 
 #[cfg(test)]

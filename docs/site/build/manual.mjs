@@ -16,6 +16,9 @@ const MORE = {
   "CHANGELOG.md": "changelog.md",
 };
 
+/** Titles in the sidebar, where that of the document says too little there. */
+const TITLES = { "manual/npm-package.md": "The npm package", "manual/c-library.md": "The C library" };
+
 /** Source files that pages of this site name themselves. */
 const SOURCES = ["include/muslin.h", "include/muslin.hpp"];
 
@@ -35,7 +38,7 @@ export async function writeManualPages(root, work) {
   const titles = new Map();
   for (const [document, page] of pages) {
     const text = await readFile(join(root, document), "utf8");
-    titles.set(page, text.match(/^# (.*)$/m)[1].replaceAll("`", ""));
+    titles.set(page, TITLES[page] ?? text.match(/^# (.*)$/m)[1].replaceAll("`", ""));
     await writePage(join(work, page), withoutHiddenLines(await withLinks(text, document, { root, pages, sources })));
   }
   for (const picture of await readdir(join(root, MANUAL, "pictures"))) {

@@ -56,6 +56,8 @@ export async function writeTypePages(types, work) {
     await writeFile(page, text.replace(/\bindex\/(?=[\w-]+\/|index\.md|")/g, "muslin/").replace(/^# index$/m, "# muslin").replace(/\[index\]/g, "[muslin]"));
   }
   const sidebar = JSON.parse(await readFile(join(out, "typedoc-sidebar.json"), "utf8"));
-  const entry = (one) => ({ ...one, text: one.text === "index" ? "muslin" : one.text.startsWith("muslin") ? one.text : `muslin/${one.text}` });
+  // Only modules fold: an entry without a page of its own that folds is a button within a button.
+  const group = ({ text, items }) => ({ text, items });
+  const entry = (one) => ({ ...one, items: one.items?.map(group), text: one.text === "index" ? "muslin" : one.text.startsWith("muslin") ? one.text : `muslin/${one.text}` });
   return sidebar.map(entry);
 }

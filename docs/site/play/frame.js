@@ -44,6 +44,11 @@ function placeIn(stack) {
 
 addEventListener("error", (event) => {
   event.preventDefault();
+  if (!event.error && codeUrl) {
+    // Chromium hides an error after a top-level `await`; the promise of the same module has it.
+    import(/* @vite-ignore */ codeUrl).then(() => fail(event.message), fail);
+    return;
+  }
   const isOwn = event.filename === codeUrl && event.lineno > 0;
   fail(event.error ?? event.message, isOwn ? { line: event.lineno, column: event.colno } : undefined);
 });

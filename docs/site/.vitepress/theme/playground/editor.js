@@ -50,7 +50,7 @@ export function makeEditor(parent, code, { onChange, onRun }) {
       lintGutter(),
       syntaxHighlighting(colors),
       theme,
-      EditorView.contentAttributes.of({ "aria-label": "Code. Press Control and Enter to run it.", spellcheck: "false" }),
+      EditorView.contentAttributes.of({ "aria-label": "Code. Press Control and Enter to run it.", spellcheck: "false", tabindex: "0" }),
       EditorView.updateListener.of((update) => {
         if (update.docChanged) onChange(update.state.doc.toString());
       }),
