@@ -26,6 +26,7 @@ const PAGES = {
   manual: "manual/materials.html",
   "api-c": "api/c/functions.html",
   "api-js": "api/javascript/muslin/classes/Cloth.html",
+  "api-python": "api/python/cloth.html",
   "api-rust": "api/rust/muslin/struct.Cloth.html",
   playground: "playground.html",
   benchmarks: "benchmarks.html",

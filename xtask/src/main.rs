@@ -55,8 +55,8 @@ cargo xtask demo --web              build the demo as a page and serve it
   --no-open                         without opening a browser
 cargo xtask manual-pictures         draw the pictures of docs/manual with the demo
 cargo xtask check                   format, lints of the library, unit tests and closed forms
-cargo xtask test [STEP…]            all tests but engines and fuzz-long, or the steps that are named
-  --all                             all steps, with engines and fuzz-long
+cargo xtask test [STEP…]            all tests but engines, fuzz-long and site, or the named steps
+  --all                             all steps, with engines, fuzz-long and site
 cargo xtask bits                    simulate golden scenes on every platform, compare the hashes
   --bless                           write golden.txt from this machine instead
 cargo xtask web                     build the demo's page into dist/web

@@ -9,7 +9,11 @@ use std::path::{Path, PathBuf};
 use crate::browser::ServerProcess;
 use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
+use crate::setup::Need;
 use crate::{browser, clients, files, npm, picture, setup, shell, web};
+
+/// What building the site needs.
+pub const NEEDS: &[&Need] = &[&setup::NODE, &setup::PYTHON_VENV, &setup::CHROMIUM];
 
 /// What a host's header would add to the policies that the pages bring themselves.
 const POLICY: &str = "frame-ancestors 'self'";
@@ -45,13 +49,14 @@ fn is_base(base: &str) -> bool {
 
 /// Builds everything that the site shows, then the site.
 fn build(base: &str) -> Result {
-    setup::ensure(&[&setup::NODE])?;
+    setup::ensure(NEEDS)?;
     clients::pack()?;
     web::build()?;
     let rustdoc = build_rust_reference()?;
     let work = copy_sources()?;
     npm::install_in(&work)?;
     install_package(&work)?;
+    write_python_reference(&work)?;
     let mut node = shell::command("node");
     node.current_dir(&work).arg("build/build.mjs");
     shell::run(node.arg(files::root()).arg(dir()).arg(base).arg(rustdoc))
@@ -94,6 +99,26 @@ fn install_package(work: &Path) -> Result {
     let mut install = shell::command("npm");
     install.current_dir(work).args(["install", "--no-save", "--offline", "--ignore-scripts"]);
     shell::run(install.args(["--no-audit", "--no-fund"]).arg(clients::tarball()))
+}
+
+/// Writes the reference of the Python package from its sources, with Griffe in an environment of its
+/// own.
+fn write_python_reference(work: &Path) -> Result {
+    let environment = files::target().join("site-python");
+    let bin = environment.join(if cfg!(windows) { "Scripts" } else { "bin" });
+    let wanted = work.join("requirements.txt");
+    let installed = environment.join("requirements.txt");
+    if files::read(&installed).ok() != Some(files::read(&wanted)?) {
+        files::create_empty_dir(&environment)?;
+        shell::run(shell::command("python3").args(["-m", "venv"]).arg(&environment))?;
+        let mut pip = shell::command(bin.join("python"));
+        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+        shell::run(pip.arg("--requirement").arg(&wanted))?;
+        std::fs::copy(&wanted, &installed).during(|| "copying requirements.txt".into())?;
+    }
+    let mut python = shell::command(bin.join("python"));
+    python.arg(work.join("build/python.py")).arg(files::root().join("bindings/python/src"));
+    shell::run(python.arg(work.join("api/python")))
 }
 
 fn serve(port: Option<u16>) -> Result {

@@ -208,10 +208,10 @@ pub const STEPS: &[Step] = &[
     Step {
         name: "site",
         about: "the site in a browser: links, policy, search, playground, contrast",
-        needs: &[&setup::NODE, &setup::CHROMIUM],
+        needs: site::NEEDS,
         writes: &[DemoPage],
         reads: &[NpmPackage],
-        is_default: true,
+        is_default: false,
         run: site::test,
     },
     Step {

@@ -8,6 +8,15 @@ const { sidebars, base } = JSON.parse(readFileSync(new URL("../generated.json", 
 const apiSidebar = [
   { text: "API", items: [{ text: "All languages", link: "/api/" }, { text: "Rust", link: "/api/rust/muslin/index.html", target: "_self" }] },
   { text: "C", items: sidebars.c },
+  {
+    text: "Python",
+    items: [
+      { text: "Overview", link: "/api/python/" },
+      { text: "Cloth", link: "/api/python/cloth" },
+      { text: "Classes", link: "/api/python/classes" },
+      { text: "Functions and names", link: "/api/python/names" },
+    ],
+  },
   { text: "JavaScript", items: [{ text: "Modules", link: "/api/javascript/" }, ...sidebars.js] },
 ];
 

@@ -69,11 +69,11 @@ function bars(data, unit, caption) {
   const label = ({ name, value }) => `${name}: ${shown(value)} ${unit}`;
   const draw = (width, size) => {
     const svg = Plot.plot({
-      document, width, height: data.length * 2 * BAR + 4, margin: 0, marginRight: 0.2 * width,
+      document, width, height: data.length * 2.3 * BAR + 4, margin: 0, marginRight: 0.2 * width,
       style: { fontSize: `${size}px` },
       ariaLabel: `Bar chart. ${data.map(label).join("; ")}`,
       x: { axis: null, domain: [0, Math.max(...data.map(({ value }) => value))] },
-      y: { axis: null, domain: data.map(({ name }) => name), padding: 0.55 },
+      y: { axis: null, domain: data.map(({ name }) => name), padding: 0.58 },
       marks: [
         Plot.barX(data, { x: "value", y: "name", fill: ({ isOwn }) => (isOwn ? "var(--chart-own)" : "var(--chart-other)"), rx2: 4, insetLeft: 0 }),
         Plot.text(data, { x: 0, y: "name", text: "name", textAnchor: "start", dy: -BAR * 0.86, fill: "var(--vp-c-text-1)" }),

@@ -1,7 +1,7 @@
 // Takes the reference that rustdoc wrote into the site.
 
 import { cp, readFile, writeFile } from "node:fs/promises";
-import { join } from "node:path";
+import { dirname, join, relative } from "node:path";
 import { filesIn } from "./files.mjs";
 
 /** A script of rustdoc that loads fonts early, but in a mode in which browsers cannot use them and say so. */
@@ -25,6 +25,8 @@ export async function copyRustReference(from, to) {
   // Some of them lead to the folder itself.
   await writeFile(join(to, "index.html"), START);
   for (const path of (await filesIn(to)).filter((file) => file.endsWith(".html"))) {
-    await writeFile(path, (await readFile(path, "utf8")).replace(PRELOAD, ""));
+    const home = relative(dirname(path), join(to, "../../index.html"));
+    const page = (await readFile(path, "utf8")).replace(PRELOAD, "");
+    await writeFile(path, page.replace('<nav class="sidebar">', (sidebar) => `${sidebar}<p style="margin: 16px 24px 0"><a href="${home}">Muslin’s site</a></p>`));
   }
 }
