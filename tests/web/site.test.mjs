@@ -125,9 +125,13 @@ test("links_of_the_menu_and_to_the_rust_reference_open", async () => {
     await page.locator(".VPNavBarMenu").getByRole("link", { name, exact: true }).click();
     await page.waitForFunction((name) => document.querySelector("h1")?.textContent.toLowerCase().includes(name.toLowerCase()), name);
   }
-  await page.goto(new URL("api/", url).href);
-  await page.locator("main").getByRole("link", { name: "crate muslin" }).click();
-  await page.waitForURL(/api\/rust\/muslin\/index\.html/);
+  for (const [part, name] of [["main", "crate muslin"], [".VPSidebar", "Rust"]]) {
+    await page.goto(new URL("api/", url).href);
+    await page.locator(part).getByRole("link", { name }).click();
+    await page.locator("h1", { hasText: "Crate muslin" }).waitFor();
+    await page.getByRole("link", { name: "Muslin’s site" }).click();
+    await page.getByRole("button", { name: "Run the demo" }).waitFor();
+  }
   assert.deepEqual(problems(complaints), []);
   await context.close();
 });

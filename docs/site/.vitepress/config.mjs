@@ -32,7 +32,7 @@ export default defineConfig({
   metaChunk: true,
   // The switch between light and dark would add a style element, which the policy of pages refuses.
   appearance: { disableTransition: false },
-  srcExclude: ["build/**", "play/**"],
+  srcExclude: ["README.md", "build/**", "play/**"],
   head: [["link", { rel: "icon", href: icon }], ["meta", { name: "color-scheme", content: "light dark" }]],
   markdown: {
     theme: { light: "github-light-high-contrast", dark: "github-dark" },

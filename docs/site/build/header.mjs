@@ -169,7 +169,8 @@ function introText(intro, items, known) {
     return `| [${page}](./${name}.md) | ${count} |`;
   });
   return [
-    "# The C library", "", `${docText(title.replace(/^Muslin: (.)/, (_, first) => first.toUpperCase()), known)} The header is`,
+    // Before it is Rust's reference, which the links between pages cannot open.
+    "---", "prev: false", "---", "", "# The C library", "", `${docText(title.replace(/^Muslin: (.)/, (_, first) => first.toUpperCase()), known)} The header is`,
     "[include/muslin.h](/source/include/muslin.h.md); C++17 has [muslin.hpp](/source/include/muslin.hpp.md) on top of it.",
     "[Integration](/manual/integration.md#c) shows how to build and link it.", "",
     ...body.flatMap((text) => [text, ""]),
