@@ -24,7 +24,7 @@ const [root, out, base, rustdoc] = process.argv.slice(2);
 const work = resolve(dirname(fileURLToPath(import.meta.url)), "..");
 
 const manual = await writeManualPages(root, work);
-const { sidebar: c } = await writeHeaderPages(root, work);
+const c = await writeHeaderPages(root, work);
 const js = await writeTypePages(join(root, "dist/js"), work);
 await writeCharts(root, work);
 // The configuration and the theme read these.

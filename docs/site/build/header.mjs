@@ -34,14 +34,10 @@ export async function writeHeaderPages(root, work) {
     await writePage(join(work, "api/c", `${page}.md`), pageText(title, own, known));
   }
   await writePage(join(work, "api/c/index.md"), introText(intro, items, known));
-  const names = (page) => items.filter((item) => item.page === page).map(({ name }) => name);
-  return {
-    functions: names("functions"),
-    sidebar: [
-      { text: "Overview", link: "/api/c/" },
-      ...PAGES.map(({ name, title }) => ({ text: title, link: `/api/c/${name}` })),
-    ],
-  };
+  return [
+    { text: "Overview", link: "/api/c/" },
+    ...PAGES.map(({ name, title }) => ({ text: title, link: `/api/c/${name}` })),
+  ];
 }
 
 /** Parses the header into its first comment and its declarations. */
