@@ -72,6 +72,21 @@ test("the_cloth_moves_and_follows_the_settings", async () => {
   await context.close();
 });
 
+test("every_program_to_start_from_runs_for_two_seconds", async () => {
+  const { page, complaints, context } = await visit();
+  await slide(page, "columns", 12);
+  const names = await page.locator(".sample option").allTextContents();
+  assert.ok(names.length >= 4, `only ${names.length} programs`);
+  for (const name of names) {
+    await page.locator(".sample select").selectOption(name);
+    await page.waitForFunction(() => Number(document.getElementById("ticks")?.textContent) > 120 || document.querySelector(".error"));
+    assert.deepEqual(await page.locator(".error").allTextContents(), [], name);
+  }
+  assert.match(await page.locator(".log").textContent(), /^cut 1 divided [1-9]/);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
 test("a_shared_link_reproduces_settings_code_and_bits", async () => {
   const { page, complaints, context } = await visit();
   await page.locator("select[name=fabric]").selectOption("denim");

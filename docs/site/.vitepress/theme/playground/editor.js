@@ -11,7 +11,7 @@ import { EditorView, basicSetup } from "codemirror";
 const theme = EditorView.theme({
   "&": { height: "100%", fontSize: "14px", color: "var(--play-text)", backgroundColor: "var(--play-code)" },
   "&.cm-focused": { outline: "2px solid var(--vp-c-brand-2)", outlineOffset: "-2px" },
-  ".cm-scroller": { fontFamily: "var(--vp-font-family-mono)", lineHeight: "1.6" },
+  ".cm-scroller": { fontFamily: "var(--vp-font-family-mono)", fontVariantLigatures: "none", lineHeight: "1.6" },
   ".cm-gutters": { color: "var(--play-faint)", backgroundColor: "var(--play-code)", border: "0" },
   ".cm-content": { caretColor: "var(--play-text)", paddingBlock: "14px" },
   ".cm-cursor": { borderLeftColor: "var(--play-text)" },
