@@ -105,10 +105,8 @@ fn blocks_of(page: &str, text: &str) -> Result<Vec<Block>> {
             Some(_) if open => open = false,
             Some(language) => {
                 open = true;
-                // VitePress takes the name of a tab after the language.
-                let language = language.split_whitespace().next().unwrap_or_default();
                 blocks.push(Block {
-                    language: language.to_string(),
+                    language: language.trim().to_string(),
                     page: page.to_string(),
                     line: at + 2,
                     text: String::new(),

@@ -20,6 +20,18 @@ const apiSidebar = [
   { text: "JavaScript", items: [{ text: "Modules", link: "/api/javascript/" }, ...sidebars.js] },
 ];
 
+/** The names of tabs with code. In the fence itself rustdoc would not take the block for Rust. */
+const TABS = { js: "JavaScript", rust: "Rust", c: "C", py: "Python" };
+
+/** Adds the name of its language to each block of code that is a tab. */
+function nameTabs({ tokens }) {
+  let isTab = false;
+  for (const token of tokens) {
+    if (token.type.startsWith("container_code-group")) isTab = token.type.endsWith("open");
+    else if (isTab && token.type === "fence") token.info += ` [${TABS[token.info]}]`;
+  }
+}
+
 const icon =
   "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 32 32'%3E%3Crect width='32' height='32' rx='8' fill='%230b1020'/%3E%3Cpath d='M6 7h20v15c-3 4-5 0-7 2s-4 3-6 0-4 1-7-2z' fill='%239fb6ff'/%3E%3Cpath d='M13 7c2 6-2 10 0 17M20 7c-2 6 2 9-1 17' fill='none' stroke='%23c0c8ff' stroke-width='2'/%3E%3C/svg%3E";
 
@@ -37,6 +49,7 @@ export default defineConfig({
   markdown: {
     theme: { light: "github-light-high-contrast", dark: "github-dark" },
     languageAlias: { sh: "bash" },
+    config: (md) => md.core.ruler.push("tab names", nameTabs),
   },
   vite: {
     // The policy of pages allows no font in the style sheet itself.
