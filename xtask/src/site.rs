@@ -62,8 +62,8 @@ fn build(base: &str) -> Result {
     shell::run(node.arg(files::root()).arg(dir()).arg(base).arg(rustdoc))
 }
 
-/// Writes the reference of the crate into a folder of its own: step `clippy` writes one with private
-/// items into the usual folder.
+/// Writes the reference of the crate into a folder of its own: step `clippy` writes one with
+/// private items into the usual folder.
 fn build_rust_reference() -> Result<PathBuf> {
     let target = files::target().join("site-doc");
     let mut doc = shell::cargo(&["doc", "--no-deps", "--package=muslin", "--lib"]);
@@ -101,8 +101,8 @@ fn install_package(work: &Path) -> Result {
     shell::run(install.args(["--no-audit", "--no-fund"]).arg(clients::tarball()))
 }
 
-/// Writes the reference of the Python package from its sources, with Griffe in an environment of its
-/// own.
+/// Writes the reference of the Python package from its sources, with Griffe in an environment of
+/// its own.
 fn write_python_reference(work: &Path) -> Result {
     let environment = files::target().join("site-python");
     let bin = environment.join(if cfg!(windows) { "Scripts" } else { "bin" });
