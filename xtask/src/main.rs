@@ -33,6 +33,7 @@ mod rust;
 mod serve;
 mod setup;
 mod shell;
+mod site;
 mod sources;
 mod steps;
 mod test;
@@ -54,8 +55,8 @@ cargo xtask demo --web              build the demo as a page and serve it
   --no-open                         without opening a browser
 cargo xtask manual-pictures         draw the pictures of docs/manual with the demo
 cargo xtask check                   format, lints of the library, unit tests and closed forms
-cargo xtask test [STEP…]            all tests but engines and fuzz-long, or the steps that are named
-  --all                             all steps, with engines and fuzz-long
+cargo xtask test [STEP…]            all tests but engines, fuzz-long and site, or the named steps
+  --all                             all steps, with engines, fuzz-long and site
 cargo xtask bits                    simulate golden scenes on every platform, compare the hashes
   --bless                           write golden.txt from this machine instead
 cargo xtask web                     build the demo's page into dist/web
@@ -67,6 +68,9 @@ cargo xtask package                 pack the C library as users install it, into
   --js                              pack the npm package into dist instead, and print its sizes
 cargo xtask bevy                    build the example in Bevy and draw its picture
 cargo xtask examples                serve the example pages of the npm package
+cargo xtask site                    build the site with manual, references and playground into dist/site
+  --base /PATH/                     for this folder of a host
+  --serve                           serve it; --port N on this port
 cargo xtask bench [TABLE…]          time native code and node, or the tables that are named: kernels,
                                     ticks, shreds, layers, scenes, receipt, node, page, peers
   --test                            once and with small meshes, as a test
@@ -104,6 +108,7 @@ fn run(args: &[String]) -> Result {
         "setup" => test::prepare(rest),
         "web" => web::run(rest),
         "js" => alone(chore, rest, js::build),
+        "site" => site::run(rest),
         "race" => race::run(rest),
         "miri" => miri::run(rest),
         "verify" => verify::run(rest),

@@ -4,7 +4,7 @@ use crate::failure::Result;
 use crate::setup::{self, Need};
 use crate::{
     bits, c_tests, clients, demo, engines, examples, fuzz, js_tests, package, python, readme, rust,
-    verify, web,
+    site, verify, web,
 };
 
 /// One part of the tests.
@@ -204,6 +204,15 @@ pub const STEPS: &[Step] = &[
         reads: &[NpmPackage],
         is_default: true,
         run: js_tests::test_in_browser,
+    },
+    Step {
+        name: "site",
+        about: "the site in a browser: links, policy, search, playground, contrast",
+        needs: site::NEEDS,
+        writes: &[DemoPage],
+        reads: &[NpmPackage],
+        is_default: false,
+        run: site::test,
     },
     Step {
         name: "engines",
