@@ -226,6 +226,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["c"] => Action::Step("c"),
         ["python"] => Action::Step("python"),
         ["package", "--js"] => Action::Step("clients"),
+        ["dist", ..] => Action::Step("dist"),
         ["examples"] => Action::Step("examples"),
         ["web" | "setup" | "manual-pictures"] => Action::Chore(rest.to_vec()),
         ["verify", "--short"] => Action::Step("verify"),
