@@ -11,7 +11,7 @@ use crate::failure::{During, Failure, Result};
 use crate::pack::{Package, VERSION, shared_name};
 use crate::{c, files, python, setup, shell, symbols};
 
-/// The programs of MinGW that LLVM has no equal of for this format.
+/// Makes symbols of objects for Windows local, which LLVM's program does not.
 const MINGW_OBJCOPY: &str = "x86_64-w64-mingw32-objcopy";
 
 /// The name of a platform's package.

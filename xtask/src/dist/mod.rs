@@ -57,7 +57,7 @@ pub fn run(words: &[String]) -> Result {
 pub fn test() -> Result {
     run(&[])?;
     trial::check_selection(PLATFORMS)?;
-    trial::check_refusal()?;
+    trial::check_refusal(PLATFORMS)?;
     check_same_bytes()
 }
 

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::platforms::{Builder, Compiler, Platform, Trial};
+use super::platforms::{Compiler, Platform, Trial};
 use super::{build, unpacked_dir, work_dir, zig};
 use crate::failure::{Failure, Result};
 use crate::{files, pack, shell};
@@ -235,9 +235,12 @@ pub fn check_selection(platforms: &[Platform]) -> Result {
 }
 
 /// Fails unless CMake, where there is only a package for another platform, says so.
-pub fn check_refusal() -> Result {
-    let find = |builder| super::PLATFORMS.iter().find(|one| one.builder == builder);
-    let (Some(here), Some(other)) = (find(Builder::Zig), find(Builder::StdFromSource)) else {
+pub fn check_refusal(platforms: &[Platform]) -> Result {
+    let is_here = |one: &&Platform| one.trial == Trial::Here(Compiler::Program("cc", None));
+    let is_elsewhere = |one: &&Platform| one.trial == Trial::Symbols;
+    let (Some(here), Some(other)) =
+        (platforms.iter().find(is_here), platforms.iter().find(is_elsewhere))
+    else {
         return Err(Failure::new("there are no two platforms to compare"));
     };
     let trial = Attempt::new(here)?;
