@@ -4,8 +4,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use super::archive;
+use super::paths::{packages_dir, tools_dir, work_dir, zig_path};
 use super::platforms::{Builder, Format, OLDEST_GLIBC, Platform};
-use super::{packages_dir, tools_dir, work_dir, zig_path};
 use crate::binutils::Binutils;
 use crate::failure::{During, Failure, Result};
 use crate::pack::{Package, VERSION, shared_name};
@@ -222,7 +223,7 @@ fn add_bill_of_materials(platform: &Platform, package: &Package) -> Result {
     let mut python = python::python_of(&tools_dir());
     python.arg(files::root().join("bindings/c/tools/bill_of_materials.py"));
     python.args(["--target", platform.target, "--metadata"]).arg(input);
-    python.args(["--time", &super::archive::time()?.to_string(), "--output"]);
+    python.args(["--time", &archive::time()?.to_string(), "--output"]);
     shell::run(python.arg(package.dir.join("share/doc/muslin")))
 }
 

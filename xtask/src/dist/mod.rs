@@ -8,17 +8,18 @@
 
 mod archive;
 mod build;
+mod paths;
 mod platforms;
 mod trial;
 
-use std::ffi::OsString;
 use std::path::PathBuf;
 
 use crate::binutils::Binutils;
 use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
-use crate::{files, pack, python, shell};
+use crate::{files, pack};
 
+use paths::{packages_dir, unpacked_dir, work_dir};
 pub use platforms::GLIBC_LIBRARIES;
 use platforms::{PLATFORMS, Platform};
 
@@ -80,7 +81,7 @@ fn make(platforms: &[&'static Platform]) -> Result {
         return Err(Failure::new("release packages are made on x86-64 Linux only"));
     }
     setup::ensure(NEEDS)?;
-    install_tools()?;
+    paths::install_tools()?;
     let tools = Binutils::llvm()?;
     for dir in [archive::dir(), packages_dir(), work_dir()] {
         files::create_dir(&dir)?;
@@ -143,47 +144,6 @@ fn check_same_bytes() -> Result {
 
 fn archive_path(platform: &Platform) -> PathBuf {
     archive::dir().join(build::name(platform) + platform.archive_suffix())
-}
-
-fn dir() -> PathBuf {
-    files::target().join("dist")
-}
-
-fn packages_dir() -> PathBuf {
-    dir().join("packages")
-}
-
-fn work_dir() -> PathBuf {
-    dir().join("work")
-}
-
-/// The folder that archives are unpacked in, side by side.
-fn unpacked_dir() -> PathBuf {
-    dir().join("unpacked")
-}
-
-/// The environment with Zig and the programs of `bindings/c/tools/requirements.txt`.
-fn tools_dir() -> PathBuf {
-    dir().join("tools")
-}
-
-fn install_tools() -> Result {
-    let requirements = files::root().join("bindings/c/tools/requirements.txt");
-    python::install_environment(&tools_dir(), &requirements)
-}
-
-/// `PATH` with the programs of the environment in front.
-fn zig_path() -> Result<OsString> {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let dirs = std::iter::once(tools_dir().join("bin")).chain(std::env::split_paths(&path));
-    std::env::join_paths(dirs).during(|| "joining PATH".into())
-}
-
-/// The path of Zig.
-fn zig() -> Result<PathBuf> {
-    let mut python = python::python_of(&tools_dir());
-    let code = "import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), 'zig'))";
-    Ok(shell::output(python.args(["-c", code]))?.trim().into())
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use super::build;
+use super::paths::{unpacked_dir, work_dir, zig};
 use super::platforms::{Compiler, Platform, Trial};
-use super::{build, unpacked_dir, work_dir, zig};
 use crate::failure::{Failure, Result};
 use crate::{files, pack, shell};
 
