@@ -1,6 +1,7 @@
 //! Packs folders into archives, with the same bytes wherever and whenever that is done.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::time::{Duration, SystemTime};
 
 use crate::failure::{During, Failure, Result};
@@ -10,13 +11,19 @@ use crate::{files, shell};
 /// The time of all files in archives, in seconds since 1970: `SOURCE_DATE_EPOCH` if that is set,
 /// else that of the last commit.
 pub fn time() -> Result<u64> {
+    // A commit while packages are built leaves the time as it is.
+    static TIME: OnceLock<u64> = OnceLock::new();
+    if let Some(time) = TIME.get() {
+        return Ok(*time);
+    }
     let text = match std::env::var("SOURCE_DATE_EPOCH") {
         Ok(text) => text,
         Err(_) => shell::output(shell::command("git").args(["log", "-1", "--format=%ct"]))
             .during(|| "asking git for a time, since SOURCE_DATE_EPOCH is not set".into())?,
     };
     let invalid = || Failure::new("`SOURCE_DATE_EPOCH` must be a number of seconds");
-    text.trim().parse().map_err(|_| invalid())
+    let time = text.trim().parse().map_err(|_| invalid())?;
+    Ok(*TIME.get_or_init(|| time))
 }
 
 /// Packs the folder of a package, under its own name, into `archive`: a zip file, or a tar file
