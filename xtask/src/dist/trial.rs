@@ -6,7 +6,7 @@ use std::process::Command;
 
 use super::build;
 use super::paths::{unpacked_dir, work_dir, zig};
-use super::platforms::{Compiler, Platform, Trial};
+use super::platforms::{Compiler, Format, Platform, Trial};
 use crate::failure::{Failure, Result};
 use crate::{files, pack, shell};
 
@@ -22,7 +22,8 @@ pub fn try_out(platform: &Platform) -> Result {
             trial.build_with_pkg_config()?;
             trial.build_first_program()?;
             trial.link_import_library()?;
-            trial.link_beside_other()
+            // Two libraries that both define symbols of Rust cannot be linked.
+            if platform.format == Format::Wasm { Ok(()) } else { trial.link_beside_other() }
         }
     }
 }
