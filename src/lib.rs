@@ -146,4 +146,6 @@ mod documents {
     struct PerformancePage;
     #[doc = include_str!("../docs/manual/integration.md")]
     struct IntegrationPage;
+    #[doc = include_str!("../docs/site/index.md")]
+    struct SitePage;
 }

@@ -60,14 +60,31 @@ const FLAGS: [&str; 5] = [
     "-max-bytes-for-alignment=7",
 ];
 
+/// The compiler's flags for the library, beside those of the profile.
+pub fn compiler_flags() -> Result<Vec<String>> {
+    let options = FLAGS.iter().flat_map(|flag| ["-C".into(), format!("llvm-args={flag}")]);
+    let paths = machine_paths()?;
+    let paths = paths.iter().map(|(from, to)| format!("--remap-path-prefix={from}={to}"));
+    Ok(options.chain(paths).collect())
+}
+
+/// Folders of this machine that messages of panics would name, each with the name that they give
+/// instead. Without it they name the sources of Rust's library too, where these are installed.
+pub fn machine_paths() -> Result<[(String, &'static str); 3]> {
+    let sysroot = shell::output(shell::command("rustc").args(["--print", "sysroot"]))?;
+    let home = std::env::var("HOME").unwrap_or_default();
+    let cargo = std::env::var("CARGO_HOME").unwrap_or_else(|_| format!("{home}/.cargo"));
+    let root = files::root().display().to_string();
+    Ok([(cargo, "cargo"), (sysroot.trim().into(), "rust"), (root, "muslin")])
+}
+
 /// Builds the static and the shared library into `target/release`.
 pub fn build() -> Result {
+    let mut flags: Vec<String> =
+        std::env::var("RUSTFLAGS").unwrap_or_default().split_whitespace().map(Into::into).collect();
+    flags.extend(compiler_flags()?);
     let mut cargo = shell::cargo(&["build", "--release", "--package", "muslin-c"]);
-    let mut flags = std::env::var("RUSTFLAGS").unwrap_or_default();
-    for flag in FLAGS {
-        flags += &format!(" -C llvm-args={flag}");
-    }
-    shell::run(cargo.env("RUSTFLAGS", flags))?;
+    shell::run(cargo.env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f")))?;
     if cfg!(target_os = "linux") {
         let soname = concat!("libmuslin.so.", env!("CARGO_PKG_VERSION_MAJOR"));
         files::symlink("libmuslin.so", &release_dir().join(soname))?;

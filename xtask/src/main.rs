@@ -7,12 +7,14 @@
 
 mod abi;
 mod bench;
+mod binutils;
 mod bits;
 mod browser;
 mod c;
 mod c_tests;
 mod clients;
 mod demo;
+mod dist;
 mod engines;
 mod examples;
 mod failure;
@@ -24,6 +26,7 @@ mod lanes;
 mod miri;
 mod no_wasm;
 mod npm;
+mod pack;
 mod package;
 mod picture;
 mod python;
@@ -33,8 +36,10 @@ mod rust;
 mod serve;
 mod setup;
 mod shell;
+mod site;
 mod sources;
 mod steps;
+mod symbols;
 mod test;
 mod tools;
 mod traps;
@@ -54,8 +59,8 @@ cargo xtask demo --web              build the demo as a page and serve it
   --no-open                         without opening a browser
 cargo xtask manual-pictures         draw the pictures of docs/manual with the demo
 cargo xtask check                   format, lints of the library, unit tests and closed forms
-cargo xtask test [STEP…]            all tests but engines and fuzz-long, or the steps that are named
-  --all                             all steps, with engines and fuzz-long
+cargo xtask test [STEP…]            all default steps, or the steps that are named
+  --all                             all steps, with dist, site, engines and fuzz-long
 cargo xtask bits                    simulate golden scenes on every platform, compare the hashes
   --bless                           write golden.txt from this machine instead
 cargo xtask web                     build the demo's page into dist/web
@@ -65,8 +70,13 @@ cargo xtask python                  build the wheel of the Python package into d
 cargo xtask c                       build the C library, compile and run its tests and examples
 cargo xtask package                 pack the C library as users install it, into dist/c
   --js                              pack the npm package into dist instead, and print its sizes
+cargo xtask dist [TARGET…]          build, pack and try the C library for all platforms, or for those
+                                    that are named, into dist/release
 cargo xtask bevy                    build the example in Bevy and draw its picture
 cargo xtask examples                serve the example pages of the npm package
+cargo xtask site                    build the site with manual, references and playground into dist/site
+  --base /PATH/                     for this folder of a host
+  --serve                           serve it; --port N on this port
 cargo xtask bench [TABLE…]          time native code and node, or the tables that are named: kernels,
                                     ticks, shreds, layers, scenes, receipt, node, page, peers
   --test                            once and with small meshes, as a test
@@ -104,6 +114,7 @@ fn run(args: &[String]) -> Result {
         "setup" => test::prepare(rest),
         "web" => web::run(rest),
         "js" => alone(chore, rest, js::build),
+        "site" => site::run(rest),
         "race" => race::run(rest),
         "miri" => miri::run(rest),
         "verify" => verify::run(rest),
@@ -112,6 +123,7 @@ fn run(args: &[String]) -> Result {
         "c" => alone(chore, rest, c_tests::check),
         "package" if rest == ["--js"] => clients::pack(),
         "package" => alone(chore, rest, package::build),
+        "dist" => dist::run(rest),
         "bevy" => alone(chore, rest, engines::bevy),
         "examples" => alone(chore, rest, examples::serve),
         "help" | "--help" | "-h" => {

@@ -62,7 +62,8 @@ pub fn test() -> Result {
     for options in [["format", "--check"], ["check", "--no-fix"]] {
         let mut ruff = tools_python();
         ruff.args(["-m", "ruff"]).args(options).args(["--quiet", "--no-cache", "--config"]);
-        shell::run(ruff.arg(package().join("pyproject.toml")).args([package(), tests()]))?;
+        ruff.arg(package().join("pyproject.toml")).args([package(), tests()]);
+        shell::run(ruff.arg(files::root().join("bindings/c/tools")))?;
     }
     let mut pytest = tools_python();
     pytest.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "--durations=5"]);
@@ -126,29 +127,42 @@ fn interpreter(environment: &Path) -> PathBuf {
     environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
 }
 
-/// The interpreter of the tools. It writes nothing into the sources.
 fn tools_python() -> Command {
-    let mut python = shell::command(interpreter(&tools()));
+    python_of(&tools())
+}
+
+fn tools_pip() -> Command {
+    pip(&tools())
+}
+
+/// The interpreter of an environment. It writes nothing into the sources.
+pub fn python_of(environment: &Path) -> Command {
+    let mut python = shell::command(interpreter(environment));
     python.env("PYTHONDONTWRITEBYTECODE", "1").env_remove("PYTHONPATH");
     python
 }
 
-fn tools_pip() -> Command {
-    let mut pip = tools_python();
+fn pip(environment: &Path) -> Command {
+    let mut pip = python_of(environment);
     pip.args(["-m", "pip", "--disable-pip-version-check", "--no-input"]);
     pip
 }
 
 /// Installs the programs that `requirements.txt` lists, unless just these are installed.
 pub fn install_tools() -> Result {
-    let wanted = files::read(&requirements())?;
-    let installed = tools().join("requirements.txt");
+    install_environment(&tools(), &requirements())
+}
+
+/// Makes an environment with the packages that a file lists, unless it holds just these.
+pub fn install_environment(environment: &Path, requirements: &Path) -> Result {
+    let wanted = files::read(requirements)?;
+    let installed = environment.join("requirements.txt");
     if files::read(&installed).ok().as_ref() != Some(&wanted) {
-        files::create_empty_dir(&tools())?;
-        shell::run(shell::command("python3").args(["-m", "venv"]).arg(tools()))?;
-        let mut pip = tools_pip();
+        files::create_empty_dir(environment)?;
+        shell::run(shell::command("python3").args(["-m", "venv"]).arg(environment))?;
+        let mut pip = pip(environment);
         pip.args(["install", "--quiet", "--only-binary=:all:", "--no-deps", "--requirement"]);
-        shell::run(pip.arg(requirements()))?;
+        shell::run(pip.arg(requirements))?;
         files::write(&installed, &wanted)?;
     }
     Ok(())

@@ -226,6 +226,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["c"] => Action::Step("c"),
         ["python"] => Action::Step("python"),
         ["package", "--js"] => Action::Step("clients"),
+        ["dist", ..] => Action::Step("dist"),
         ["examples"] => Action::Step("examples"),
         ["web" | "setup" | "manual-pictures"] => Action::Chore(rest.to_vec()),
         ["verify", "--short"] => Action::Step("verify"),
@@ -306,6 +307,7 @@ mod tests {
         assert_eq!(action(strip, is_step), Action::Step("shot"));
         assert_eq!(action("cargo xtask bench node", is_step), Action::Bench(vec!["node"]));
         assert_eq!(action("cargo xtask verify --short", is_step), Action::Step("verify"));
+        assert_eq!(action("cargo xtask dist aarch64-apple-ios", is_step), Action::Step("dist"));
         assert_eq!(action("cargo xtask fly", is_step), Action::Unknown);
         assert_eq!(action("cc -Iinclude a.c", is_step), Action::Shell);
     }

@@ -66,6 +66,41 @@ pub const QEMU: Need = Need {
     },
 };
 
+/// The C compiler for 64-bit ARM Linux, with its C library.
+pub const AARCH64_GCC: Need = Need {
+    name: "gcc for aarch64 Linux",
+    packages: &["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross"],
+    is_installed: || {
+        which("aarch64-linux-gnu-gcc").is_some()
+            && Path::new("/usr/aarch64-linux-gnu/include/stdio.h").exists()
+    },
+};
+
+/// The C compiler for Windows.
+pub const MINGW: Need = Need {
+    name: "MinGW-w64",
+    packages: &["gcc-mingw-w64-x86-64"],
+    is_installed: || which("x86_64-w64-mingw32-gcc").is_some(),
+};
+
+/// The C compiler for WebAssembly.
+pub const EMSCRIPTEN: Need = Need {
+    name: "Emscripten",
+    packages: &["emscripten"],
+    is_installed: || which("emcc").is_some() && which("em-config").is_some(),
+};
+
+/// What runs programs for Windows.
+pub const WINE: Need =
+    Need { name: "Wine", packages: &["wine", "wine64"], is_installed: || which("wine").is_some() };
+
+/// Programs that pack and unpack archives for Windows.
+pub const ZIP: Need = Need {
+    name: "zip and unzip",
+    packages: &["zip", "unzip"],
+    is_installed: || which("zip").is_some() && which("unzip").is_some(),
+};
+
 /// A browser that scripts can control.
 pub const CHROMIUM: Need =
     Need { name: "chromium", packages: &["chromium"], is_installed: || chromium().is_some() };
@@ -228,6 +263,17 @@ pub fn ensure_std_source() -> Result {
         return Ok(());
     }
     rustup("the source of Rust's library is missing", &["component", "add", "rust-src"])
+}
+
+/// Installs the programs of LLVM that belong to the Rust compiler, and returns their folder.
+pub fn ensure_llvm_tools() -> Result<PathBuf> {
+    let _lock = files::lock("rustup")?;
+    let libraries = shell::output(shell::command("rustc").args(["--print", "target-libdir"]))?;
+    let dir = Path::new(libraries.trim()).with_file_name("bin");
+    if !dir.join("llvm-nm").exists() {
+        rustup("the programs of LLVM are missing", &["component", "add", "llvm-tools"])?;
+    }
+    Ok(dir)
 }
 
 /// The path of the browser.

@@ -3,8 +3,8 @@
 use crate::failure::Result;
 use crate::setup::{self, Need};
 use crate::{
-    bits, c_tests, clients, demo, engines, examples, fuzz, js_tests, package, python, readme, rust,
-    verify, web,
+    bits, c_tests, clients, demo, dist, engines, examples, fuzz, js_tests, package, python, readme,
+    rust, site, verify, web,
 };
 
 /// One part of the tests.
@@ -40,6 +40,8 @@ pub enum Output {
     DemoPage,
     /// `dist/c`.
     CPackage,
+    /// `dist/release`.
+    ReleasePackages,
     /// `dist/python` and the environments with the wheel.
     PythonPackage,
     /// `target/fuzz`.
@@ -47,7 +49,8 @@ pub enum Output {
 }
 
 use Output::{
-    CLibrary, CPackage, DebugBuild, DemoPage, Fuzzer, NpmPackage, PythonPackage, TestBuild,
+    CLibrary, CPackage, DebugBuild, DemoPage, Fuzzer, NpmPackage, PythonPackage, ReleasePackages,
+    TestBuild,
 };
 
 /// All steps. Those that take longest come early, so that the last ones end together.
@@ -204,6 +207,24 @@ pub const STEPS: &[Step] = &[
         reads: &[NpmPackage],
         is_default: true,
         run: js_tests::test_in_browser,
+    },
+    Step {
+        name: "site",
+        about: "the site in a browser: links, policy, search, playground, contrast",
+        needs: site::NEEDS,
+        writes: &[DemoPage],
+        reads: &[NpmPackage],
+        is_default: false,
+        run: site::test,
+    },
+    Step {
+        name: "dist",
+        about: "the C library's release packages for all platforms, run where that is possible",
+        needs: dist::NEEDS,
+        writes: &[ReleasePackages],
+        reads: &[],
+        is_default: false,
+        run: dist::test,
     },
     Step {
         name: "engines",
