@@ -36,6 +36,7 @@ def test_defaults_of_colliders_are_those_of_the_library() -> None:
         "position_stride",
         "vertex_count",
         "index_count",
+        "reserved",
     }
     for name in ["tangential_restitution", "radius", "half_height", "spacing", "solid"]:
         assert parameters[name].default == getattr(desc, name)

@@ -95,6 +95,8 @@ pub struct MuslinColliderDesc {
     /// place of the surface at 0.05 m/s; deeper ones stay. It costs a search per particle near the mesh
     /// in every tick.
     pub solid: f32,
+    /// Not used. Default 0.
+    pub reserved: u32,
 }
 
 impl Default for MuslinColliderDesc {
@@ -123,6 +125,7 @@ impl Default for MuslinColliderDesc {
             indices: ptr::null(),
             heights: ptr::null(),
             solid: desc.solid,
+            reserved: 0,
         }
     }
 }
