@@ -87,7 +87,7 @@ impl NearestPlace {
 
     /// Returns the nearest place and the outward direction there if the point is inside a mesh of this
     /// orientation.
-    pub fn from_inside(&self, orientation: f32) -> Option<(Vec3, Vec3)> {
+    pub fn way_out(&self, orientation: f32) -> Option<(Vec3, Vec3)> {
         if self.squared == f32::INFINITY || self.cosine * orientation >= 0.0 {
             return None;
         }
@@ -121,7 +121,7 @@ mod tests {
             for face in FACES {
                 nearest.visit(face.map(|i| CORNERS[i as usize]));
             }
-            nearest.from_inside(1.0)
+            nearest.way_out(1.0)
         };
         let inside = find(Vec3::new(0.2, 0.1, 0.3), 1.0);
         assert!(inside.is_some_and(|(place, out)| {

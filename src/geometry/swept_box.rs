@@ -160,7 +160,8 @@ mod tests {
 
     #[test]
     fn nan_counts_as_meeting() {
-        let broken = moving(Vec3::splat(f32::NAN), Vec3::ZERO);
+        let nan = Aabb { low: Vec3::NAN, high: Vec3::NAN };
+        let broken = SweptBox::new(nan, [Vec3::ZERO; 2], [0.0; 2]);
         assert!(broken.may_meet(&moving(Vec3::X * 9.0, Vec3::ZERO)));
     }
 }

@@ -387,7 +387,7 @@ mod tests {
         let (middle, radius) = ((from + to) * 0.5, (to - from).length() + 0.2);
         let bounds = Aabb::from_points([middle]).expanded(radius);
         let point = (middle, &PointMotion::default());
-        surface.push_triangles_near(point, radius, bounds, &mut triangles);
+        surface.push_triangles_near(point, radius, (bounds, 1.0), &mut triangles);
         triangles
     }
 

@@ -183,7 +183,7 @@ impl ColliderBody {
             }
             _ => {}
         }
-        nearest.from_inside(self.orientation)
+        nearest.way_out(self.orientation)
     }
 
     /// The deformation; `None` if the collider is rigid.

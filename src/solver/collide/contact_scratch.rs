@@ -9,7 +9,7 @@
 use crate::math::reserve::ReserveTotal;
 use crate::solver::collide::body_motion::BodyMotion;
 use crate::solver::collide::collider_contact::ColliderContact;
-use crate::solver::collide::inside::InsideCount;
+use crate::solver::collide::inside_count::InsideCount;
 use crate::solver::collide::long_pairs::LongPairs;
 use crate::solver::collide::long_triangles::LongTriangles;
 use crate::solver::collide::nearby_blocks::NearbyBlocks;

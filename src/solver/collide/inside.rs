@@ -6,28 +6,13 @@
 
 use crate::geometry::collision_shape::CollisionShape;
 use crate::solver::collide::distance_cull;
+use crate::solver::collide::inside_count::InsideCount;
 use crate::solver::collide::nearby_blocks::BLOCK;
 use crate::solver::world::World;
 use crate::state::events::EventKind;
 
 /// The depth from which a particle counts as inside [m].
 const DEPTH: f32 = 1.0e-4;
-
-/// Particles inside a collider: how many, and the first.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct InsideCount {
-    count: u32,
-    first: u32,
-}
-
-impl InsideCount {
-    pub fn add(&mut self, particle: u32) {
-        if self.count == 0 || particle < self.first {
-            self.first = particle;
-        }
-        self.count += 1;
-    }
-}
 
 /// Counts the particles inside colliders, and reports them by one event each for held and for free
 /// ones. Inside a mesh, which

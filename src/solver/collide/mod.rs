@@ -27,6 +27,7 @@ pub(crate) mod contact_scratch;
 mod distance_cull;
 mod edge_vs_feature;
 pub(crate) mod inside;
+mod inside_count;
 mod local_particles;
 mod long_pairs;
 mod long_triangles;
