@@ -185,7 +185,8 @@
  * Triangle mesh: the triangles of `indices` over `positions`.
  *
  * The cloth stays on the side where it is: both sides are outside. So the mesh need not be closed
- * or consistently wound. The gap is at least 0.1 mm.
+ * or consistently wound. With `solid` a closed mesh pushes out what is inside. The gap is at least
+ * 0.1 mm.
  */
 #define MUSLIN_SHAPE_MESH 5
 
@@ -888,6 +889,18 @@ typedef struct MuslinColliderDesc {
   const uint32_t *indices;
   /** Heightfield: `columns` * `rows` heights [m], row by row along x. */
   const float *heights;
+  /**
+   * Mesh: depth from which it pushes out particles that are inside [m]. Default 0: both sides of its
+   * triangles are outside. Below 1e6.
+   *
+   * Above 0 the mesh must be closed and consistently wound: every edge in two triangles, once in
+   * each direction. Normals may point inward or outward. Particles come out towards the nearest
+   * place of the surface at 0.05 m/s; deeper ones stay. It costs a search per particle near the mesh
+   * in every tick.
+   */
+  float solid;
+  /** Not used. Default 0. */
+  uint32_t reserved;
 } MuslinColliderDesc;
 
 /**
@@ -1955,7 +1968,7 @@ MuslinStatus muslin_cloth_update_collider(MuslinCloth cloth,
  * contains the collider, and the handle is valid for the restored cloth too.
  *
  * @return MUSLIN_STATUS_BAD_HANDLE if a cloth is not live, or the collider was removed;
- * MUSLIN_STATUS_BAD_VALUE if `other` is the cloth itself, the collider is no mesh, no triangle of
+ * MUSLIN_STATUS_BAD_VALUE if `other` is the cloth itself, this call did not return the collider, no triangle of
  * `other` has an area, or a particle of it is 1e6 m or more from its origin; MUSLIN_STATUS_FULL if
  * there are 1024 colliders already; MUSLIN_STATUS_BUSY if either cloth is in use on another thread
  */

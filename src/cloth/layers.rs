@@ -57,8 +57,8 @@ impl Cloth {
     ///
     /// # Errors
     /// [`Error::BadHandle`](crate::Error::BadHandle) if `collider` was removed or is that of another
-    /// cloth; [`Error::BadValue`](crate::Error::BadValue) if it is no mesh, or no triangle of `other`
-    /// has an area; [`Error::BadEntry`](crate::Error::BadEntry) if a particle of `other` is 1e6 m or
+    /// cloth; [`Error::BadValue`](crate::Error::BadValue) if this call did not return it, or no triangle
+    /// of `other` has an area; [`Error::BadEntry`](crate::Error::BadEntry) if a particle of `other` is 1e6 m or
     /// more from its origin; [`Error::Full`](crate::Error::Full) if there are 1024 colliders already.
     /// The cloth is unchanged.
     pub fn collide_with(&mut self, other: &Self, collider: Option<Collider>) -> Result<Collider> {
@@ -84,7 +84,7 @@ impl World {
 
     fn update_layer(&mut self, other: &Self, handle: u32) -> Result<()> {
         let body = self.colliders.get(handle, "collider")?;
-        check(body.desc.shape == Shape::Mesh, "collider", "be a mesh")?;
+        check(body.is_layer, "collider", "be one that `collide_with` returned")?;
         let is_same = body.desc.positions.len() == other.particles.len()
             && body.desc.indices == other.mesh.triangles.as_flattened();
         let replacement = if is_same { None } else { Some(self.layer_body(other)?) };
@@ -131,7 +131,9 @@ impl World {
             friction,
             ..ColliderDesc::default()
         };
-        ColliderBody::new(desc, self.origin)
+        let mut body = ColliderBody::new(desc, self.origin)?;
+        body.is_layer = true;
+        Ok(body)
     }
 
     /// Where the particles of a cloth that was torn or cut were when `body` was updated last, relative

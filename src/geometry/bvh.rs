@@ -15,6 +15,7 @@
 //! a node contain the boxes of its items.
 
 use crate::geometry::aabb::Aabb;
+use crate::geometry::swept_box::MovingBox;
 use crate::math::sort::{select_by, sort_by};
 use core::cmp::Ordering;
 use core::ops::Range;
@@ -125,6 +126,25 @@ impl Bvh {
         }
     }
 
+    /// Recomputes the bounds likewise for items that move in a tick, and sets the moving box of each
+    /// node.
+    pub fn refit_moving(&mut self, boxes: &dyn Fn(u32) -> MovingBox, nodes: &mut Vec<MovingBox>) {
+        nodes.resize(self.nodes.len(), MovingBox::EMPTY);
+        for at in (0..self.nodes.len()).rev() {
+            let mut all = MovingBox::EMPTY;
+            let items = &self.nodes[at].items;
+            if items.is_empty() {
+                let second = self.nodes[at + 1].skip as usize;
+                [at + 1, second].iter().for_each(|child| all.merge(&nodes[*child]));
+            } else {
+                let items = &self.order[items.start as usize..items.end as usize];
+                items.iter().for_each(|item| all.merge(&boxes(*item)));
+            }
+            self.nodes[at].bounds = all.bounds();
+            nodes[at] = all;
+        }
+    }
+
     /// Visits the items that may be the best, those of nearer nodes first.
     pub fn visit(&self, visitor: &mut dyn Visitor) {
         let mut pending = [(0.0, 0); MAX_DEPTH];
@@ -176,6 +196,15 @@ impl Bvh {
     /// Returns the items of all leaves whose bounds overlap `query`, in the order of the tree.
     /// Items of such a leaf that do not overlap themselves are included.
     pub fn overlapping(&self, query: Aabb) -> impl Iterator<Item = u32> + '_ {
+        self.items_of_nodes(move |node| self.nodes[node].bounds.overlaps(&query))
+    }
+
+    /// Returns the items of all leaves for which `is_near` holds, and for all nodes above them, in the
+    /// order of the tree. It takes the number of a node.
+    pub fn items_of_nodes<'a>(
+        &'a self,
+        is_near: impl Fn(usize) -> bool + 'a,
+    ) -> impl Iterator<Item = u32> + 'a {
         let mut at = 0;
         let mut leaf = 0..0;
         core::iter::from_fn(move || {
@@ -184,7 +213,7 @@ impl Bvh {
                     return Some(self.order[item as usize]);
                 }
                 let node = self.nodes.get(at)?;
-                if node.bounds.overlaps(&query) {
+                if is_near(at) {
                     leaf = node.items.clone();
                     at += 1;
                 } else {

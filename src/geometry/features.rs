@@ -23,6 +23,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bends::{BendHistogram, SurfaceBend};
 use crate::geometry::bvh::Bvh;
 use crate::geometry::relative_motion::{PartMotion, PointMotion, RigidStep};
+use crate::geometry::swept_box::SweptBox;
 use crate::math::max;
 use crate::math::sort::{sort_by, sort_groups};
 use glam::Vec3;
@@ -239,6 +240,21 @@ impl Features {
         }
     }
 
+    /// Returns the box of a feature that moves, for times that are these shares of a tick before and
+    /// after now.
+    pub fn swept_box(&self, id: u32, shares: [f32; 2]) -> SweptBox {
+        let now = match self.get(id) {
+            Feature::Edge(edge) => Aabb::from_points(edge.ends),
+            Feature::Vertex(_, vertex) => Aabb { low: vertex.position, high: vertex.position },
+        };
+        let whole = self.motions.get(id as usize).map_or(PartMotion::default(), |one| one.whole);
+        SweptBox::new(
+            now,
+            shares.map(|share| whole.mean * share),
+            shares.map(|share| whole.spread * share),
+        )
+    }
+
     /// Returns how far points move relative to a feature, at most [m]; 0 if features do not move.
     pub fn reach<const COUNT: usize>(&self, id: u32, points: [&PointMotion; COUNT]) -> f32 {
         match self.motions.get(id as usize) {
@@ -390,7 +406,7 @@ pub(super) fn ends_by_vertex(edges: &[[u32; 2]]) -> Vec<EdgeEnd> {
 }
 
 /// Returns, for each point, the first point in the same place.
-fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
+pub(super) fn weld_positions(positions: &[Vec3]) -> Vec<u32> {
     // Adding zero turns minus zero into zero.
     let bits = |i: u32| (positions[i as usize] + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();

@@ -23,6 +23,8 @@ pub(crate) mod primitives;
 pub(crate) mod ray;
 pub(crate) mod relative_motion;
 pub(crate) mod signed_distance;
+pub(crate) mod solid_mesh;
+pub(crate) mod swept_box;
 pub(crate) mod transform;
 pub(crate) mod triangle;
 pub(crate) mod triangle_surface;

@@ -20,6 +20,8 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{Features, ShapeFeatures};
 use crate::geometry::moving_features::FeatureSources;
 use crate::geometry::relative_motion::{PartMotion, RigidStep};
+use crate::geometry::solid_mesh::NearestPlace;
+use crate::geometry::swept_box::MovingBox;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::{lerp, max};
 use glam::Vec3;
@@ -132,14 +134,11 @@ impl MovingVertices<'_> {
         self.next[vertex as usize] - self.last[vertex as usize]
     }
 
-    /// The box of some vertices at both ends of the tick.
-    fn swept<const COUNT: usize>(&self, vertices: [u32; COUNT]) -> Aabb {
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for v in vertices {
-            let (last, next) = (self.last[v as usize], self.next[v as usize]);
-            (low, high) = (low.min(last).min(next), high.max(last).max(next));
-        }
-        Aabb { low, high }
+    /// The boxes of some vertices at both ends of the tick.
+    #[inline(never)]
+    fn boxes<const COUNT: usize>(&self, corners: [u32; COUNT]) -> MovingBox {
+        let at = |all: &[Vec3]| Aabb::from_points(corners.map(|v| all[v as usize]));
+        MovingBox::new([at(self.last), at(self.next)])
     }
 
     /// The motion of a part with these corners in the whole tick.
@@ -190,7 +189,7 @@ impl MovingSurface {
         self.is_feature_tree_current = false;
         let corners = core::mem::take(&mut self.corners);
         if let Some((surface, _)) = self.parts() {
-            surface.refit(&|triangle| vertices.swept(corners[triangle as usize]));
+            surface.refit(&|triangle| vertices.boxes(corners[triangle as usize]));
         }
         self.corners = corners;
     }
@@ -203,8 +202,8 @@ impl MovingSurface {
         let sources = core::mem::take(&mut self.sources);
         if let Some((_, features)) = self.parts() {
             features.refit(&|id| match sources.edge_ends(id) {
-                Some(ends) => vertices.swept(ends),
-                None => vertices.swept([sources.vertex(id)]),
+                Some(ends) => vertices.boxes(ends).bounds(),
+                None => vertices.boxes([sources.vertex(id)]).bounds(),
             });
         }
         self.sources = sources;
@@ -453,6 +452,14 @@ impl MovingSurface {
         }
     }
 
+    /// Shows the triangles near a point at the start of the tick to a search for the nearest place.
+    pub fn visit_near(&self, vertices: MovingVertices<'_>, nearest: &mut NearestPlace) {
+        if let CollisionShape::TriangleSurface(surface, _) = &self.shape {
+            let at = |v: u32| vertices.last[v as usize];
+            surface.visit_near(nearest, Some(&|triangle| self.corners[triangle as usize].map(at)));
+        }
+    }
+
     /// Returns the largest distance that a point which moves along `path` from `at` moves relative to
     /// triangles near it in the tick, and at least `least` [m].
     pub fn longest_relative_path(
@@ -469,7 +476,7 @@ impl MovingSurface {
             let own = self.corners[triangle as usize];
             let [a, b, c] = own.map(|v| vertices.motion(v));
             let relative2 = (path - (a + b + c) * (1.0 / 3.0)).length_squared();
-            if relative2 > longest2 && vertices.swept(own).overlaps(&bounds) {
+            if relative2 > longest2 && vertices.boxes(own).bounds().overlaps(&bounds) {
                 longest2 = relative2;
             }
         }

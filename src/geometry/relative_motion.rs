@@ -59,6 +59,18 @@ impl PointMotion {
     }
 }
 
+impl PointMotion {
+    /// Returns the path of a part relative to the point from now to the end of the tick (0) or back to
+    /// the start of the substep (1), and how far its corners may be off that [m].
+    #[inline(always)]
+    pub fn relative_path(&self, direction: usize, part: Option<&PartMotion>) -> (Vec3, f32) {
+        let (own, share) = (self.displacements[direction], self.shares[direction]);
+        let PartMotion { mean, spread } = part.copied().unwrap_or_default();
+        let path = mean * share - own;
+        (if direction == 0 { path } else { -path }, spread * share)
+    }
+}
+
 /// The rigid motion of a feature in a substep: of a point of it and of the directions around it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RigidStep {

@@ -18,6 +18,8 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
 use crate::geometry::closest_points::{interpolate, triangle_to_origin};
 use crate::geometry::relative_motion::{PartMotion, PointMotion};
+use crate::geometry::solid_mesh::NearestPlace;
+use crate::geometry::swept_box::{MovingBox, SweptBox};
 use crate::math::{TINY, max};
 use glam::Vec3;
 
@@ -30,6 +32,8 @@ pub(crate) struct TriangleSurface {
     /// The motion of each triangle in the tick; empty likewise.
     motions: Vec<PartMotion>,
     tree: Bvh,
+    /// The moving boxes of the nodes of the tree; empty likewise.
+    nodes: Vec<MovingBox>,
 }
 
 /// A place of a surface that a point touches or passes through.
@@ -82,6 +86,7 @@ impl TriangleSurface {
             triangles: all,
             before,
             motions,
+            nodes: Vec::new(),
         })
     }
 
@@ -109,14 +114,28 @@ impl TriangleSurface {
         self.motions[triangle as usize] = motion;
     }
 
-    /// Recomputes the tree from boxes of the triangles.
-    pub fn refit(&mut self, bounds: &dyn Fn(u32) -> Aabb) {
-        self.tree.refit(bounds);
+    /// Recomputes the tree from the boxes of the triangles at both ends of a tick.
+    pub fn refit(&mut self, boxes: &dyn Fn(u32) -> MovingBox) {
+        self.tree.refit_moving(boxes, &mut self.nodes);
     }
 
     /// Returns the triangles whose boxes may overlap `bounds`.
     pub fn overlapping(&self, bounds: Aabb) -> impl Iterator<Item = u32> + '_ {
         self.tree.overlapping(bounds)
+    }
+
+    /// Shows the triangles near a point, posed or as `corners` gives them, to a search for the nearest
+    /// place.
+    pub fn visit_near(
+        &self,
+        nearest: &mut NearestPlace,
+        corners: Option<&dyn Fn(u32) -> [Vec3; 3]>,
+    ) {
+        let (point, squared) = nearest.start();
+        self.tree.visit_near(point, squared, &mut |triangle| {
+            let posed = || self.triangles[triangle as usize].corners;
+            nearest.visit(corners.map_or_else(posed, |corners| corners(triangle)))
+        });
     }
 
     /// Returns how far a triangle moved near a point that was at `from` at the start of the substep
@@ -143,33 +162,48 @@ impl TriangleSurface {
     }
 
     /// Pushes the triangles within `radius` [m] of a point, and of those that overlap `bounds` the
-    /// ones that come as near if both move on. A distance of NaN counts as near.
+    /// ones that come as near if both move on. A distance of NaN counts as near. A moving surface is
+    /// posed at `moment` of the tick.
     pub fn push_triangles_near(
         &self,
         (point, motion): (Vec3, &PointMotion),
         radius: f32,
-        bounds: Aabb,
+        (bounds, moment): (Aabb, f32),
         triangles: &mut Vec<u32>,
     ) {
         let is_near = |triangle: &u32| {
             let SurfaceTriangle { corners, normal } = &self.triangles[*triangle as usize];
-            let reach = self.motions.get(*triangle as usize).map(|own| motion.reach(own));
-            let radius = radius + reach.unwrap_or(0.0);
+            let own = self.motions.get(*triangle as usize);
+            let most = radius + own.map_or(0.0, |own| motion.reach(own));
             let height = (point - corners[0]).dot(*normal);
             // Negated, so that NaN counts as near.
-            if height.abs() > radius {
+            if height.abs() > most {
                 return false;
             }
             let corners = corners.map(|corner| corner - point);
             let [a, b, c] = corners;
-            let is_beside = a.min(b).min(c).cmpgt(Vec3::splat(radius)).any()
-                || a.max(b).max(c).cmplt(Vec3::splat(-radius)).any();
-            let is_far = is_beside || {
-                interpolate(corners, triangle_to_origin(corners)).length_squared() > radius * radius
+            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            let (mut above, mut below) =
+                (low.cmpgt(Vec3::splat(radius)), high.cmplt(Vec3::splat(-radius)));
+            for k in 0..if own.is_some() { 2 } else { 0 } {
+                let (path, spread) = motion.relative_path(k, own);
+                above &= (low + path).cmpgt(Vec3::splat(radius + spread));
+                below &= (high + path).cmplt(Vec3::splat(-radius - spread));
+            }
+            let is_far = above.any() || below.any() || {
+                interpolate(corners, triangle_to_origin(corners)).length_squared() > most * most
             };
             !is_far
         };
-        triangles.extend(self.tree.overlapping(bounds).filter(is_near));
+        if self.nodes.is_empty() {
+            triangles.extend(self.tree.overlapping(bounds).filter(is_near));
+            return;
+        }
+        let now = Aabb::from_points([point]).expanded(radius);
+        let query = SweptBox::new(now, motion.displacements, [0.0; 2]);
+        let times = [moment - motion.shares[1], moment, moment + motion.shares[0]];
+        let near = self.tree.items_of_nodes(|node| self.nodes[node].may_meet(&query, times));
+        triangles.extend(near.filter(is_near));
     }
 }
 
@@ -353,7 +387,7 @@ mod tests {
         let (middle, radius) = ((from + to) * 0.5, (to - from).length() + 0.2);
         let bounds = Aabb::from_points([middle]).expanded(radius);
         let point = (middle, &PointMotion::default());
-        surface.push_triangles_near(point, radius, bounds, &mut triangles);
+        surface.push_triangles_near(point, radius, (bounds, 1.0), &mut triangles);
         triangles
     }
 

@@ -113,6 +113,7 @@ pub(crate) fn tick(world: &mut World) -> bool {
         timed!(world, Limit, strain_limit::store_initial_velocities(world));
     }
     timed!(world, Colliders, collide::begin_tick(world));
+    timed!(world, Colliders, collide::solid_meshes::push_out(world));
     timed!(world, Pairs, surface_stages::begin_tick(world));
     timed!(world, Forces, forces::compute_acceleration(world));
     timed!(world, Forces, pressure::begin_tick(world));

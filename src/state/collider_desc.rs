@@ -7,6 +7,7 @@ use crate::geometry::convex_hull;
 use crate::geometry::features::ShapeFeatures;
 use crate::geometry::heightfield::Heightfield;
 use crate::geometry::primitives::{Capsule, Cuboid, HalfSpace, Sphere};
+use crate::geometry::solid_mesh;
 use crate::geometry::triangle_surface;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::hasher::StateHasher;
@@ -34,8 +35,8 @@ pub enum Shape {
     /// rest; it keeps moving by some mm/s.
     Convex = 4,
     /// Triangles `indices` over `positions`. Both sides of a triangle are outside and cloth stays
-    /// on the side where it is, so the mesh need be neither closed nor consistently wound. Its
-    /// minimum gap is 0.1 mm.
+    /// on the side where it is, so the mesh need be neither closed nor consistently wound; with
+    /// `solid` a closed one pushes out what is inside. Its minimum gap is 0.1 mm.
     Mesh = 5,
     /// Terrain: `columns` × `rows` heights at `spacing` along the local x and z axes, starting at
     /// `position`. It is solid below the surface, as deep as it is wide, and has no side walls.
@@ -94,6 +95,12 @@ pub struct ColliderDesc {
     pub spacing: f32,
     /// Heightfield: `columns` × `rows` heights [m], row by row along x. Default: none.
     pub heights: Vec<f32>,
+    /// Mesh: depth from which it pushes out particles that are inside [m], 0 to 1e6; 0 = both sides of
+    /// its triangles are outside. Above 0 the mesh must be closed and consistently wound, with every
+    /// edge in two triangles, once in each direction; normals may point inward or outward. Particles
+    /// come out towards the nearest place of the surface at 0.05 m/s, and deeper ones stay. It costs a
+    /// search per particle near the mesh in every tick. Default: 0.
+    pub solid: f32,
     /// Gap between surface and particles [m], at least 0; −1 = thickness of the material. Default:
     /// −1.
     ///
@@ -128,6 +135,7 @@ impl Default for ColliderDesc {
             rows: 0,
             spacing: 1.0,
             heights: Vec::new(),
+            solid: 0.0,
             thickness: -1.0,
             friction: -1.0,
             restitution: -1.0,
@@ -225,6 +233,8 @@ impl ColliderDesc {
                 self.check_positions()?;
                 let is_whole = !self.indices.is_empty() && self.indices.len().is_multiple_of(3);
                 check(is_whole, "collider.indices", "hold triangles, three indices each")?;
+                let is_depth = self.solid == 0.0 || is_size(self.solid);
+                check(is_depth, "collider.solid", "be at least 0 and below 1e6")?;
                 let count = self.positions.len();
                 self.indices.iter().try_for_each(|i| check_index(*i, count, "collider.indices"))
             }
@@ -257,6 +267,22 @@ impl ColliderDesc {
         let (triangles, _) = self.indices.as_chunks::<3>();
         let triangles = triangle_surface::non_degenerate(&positions, triangles);
         (positions, triangles)
+    }
+
+    /// Returns on which side of the triangles of a solid mesh their normals are, see
+    /// [`solid_mesh::orientation`]; 0 for other shapes.
+    ///
+    /// # Errors
+    /// `BadValue` if the mesh is to be solid, and is not closed and consistently wound.
+    pub(crate) fn orientation(&self) -> Result<f32> {
+        if self.shape != Shape::Mesh || self.solid == 0.0 {
+            return Ok(0.0);
+        }
+        let (positions, triangles) = self.mesh_surface();
+        solid_mesh::orientation(&positions, &triangles).ok_or(Error::BadValue {
+            field: "collider.solid",
+            must: "be 0 unless the mesh is closed and consistently wound",
+        })
     }
 
     /// The point that the coordinates of the collision shape are relative to, in the local frame
@@ -327,6 +353,9 @@ impl ColliderDesc {
         hasher.write_f32s(&self.half_extents.to_array());
         hasher.write_f32s(&[self.thickness, self.friction, self.restitution]);
         hasher.write_f32s(&[self.tangential_restitution]);
+        if self.solid > 0.0 {
+            hasher.write_f32s(&[self.solid]);
+        }
         self.positions.iter().for_each(|x| hasher.write_f32s(&x.to_array()));
         hasher.write_u32s(&self.indices);
         hasher.write_f32s(&self.heights);

@@ -6,6 +6,7 @@
 use crate::arena::Arena;
 use crate::error::{Result, check, check_finite};
 use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::solid_mesh::NearestPlace;
 use crate::math::{max, saturate};
 use crate::state::collider_desc::{ColliderDesc, Shape};
 use crate::state::deformation::Deformation;
@@ -88,6 +89,8 @@ pub(crate) struct ColliderBody {
     pub pending: Impulse,
     /// The deformation of a mesh, once the host has given new vertices.
     deformation: Option<Box<Deformation>>,
+    /// Whether it is the surface of another cloth, which `collide_with` added.
+    pub is_layer: bool,
     /// A point in the local frame [m]: that of `ColliderDesc::shape_center`, or a point of a plane
     /// near the origin of the cloth.
     center: Vec3,
@@ -103,6 +106,10 @@ pub(crate) struct ColliderBody {
     /// collider deforms.
     #[serde(skip)]
     collision_shape: Option<Arc<CollisionShape>>,
+    /// On which side of the triangles of a solid mesh their normals are, see
+    /// `geometry::solid_mesh::orientation`; 0 for other shapes.
+    #[serde(skip)]
+    orientation: f32,
 }
 
 impl ColliderBody {
@@ -110,6 +117,7 @@ impl ColliderBody {
         desc.check()?;
         let pose = Pose::new(desc.position, desc.rotation);
         let (center, shape) = (desc.shape_center(), Arc::new(desc.collision_shape()?));
+        let orientation = desc.orientation()?;
         let mut body = Self {
             desc,
             last: pose,
@@ -117,10 +125,12 @@ impl ColliderBody {
             impulse: Impulse::default(),
             pending: Impulse::default(),
             deformation: None,
+            is_layer: false,
             center,
             final_pose: pose,
             arrived: Some(pose),
             collision_shape: Some(shape),
+            orientation,
         };
         body.place(pose.rotation, origin);
         body.last = body.next;
@@ -141,6 +151,7 @@ impl ColliderBody {
         check_pose(self.last.position, self.last.rotation, COLLIDER_FIELDS)?;
         check_pose(self.next.position, self.next.rotation, COLLIDER_FIELDS)?;
         self.final_pose = self.next;
+        self.orientation = self.desc.orientation()?;
         match &mut self.deformation {
             Some(deformation) => {
                 let (positions, triangles) = self.desc.mesh_surface();
@@ -158,6 +169,21 @@ impl ColliderBody {
             Some(deformation) => deformation.shape(),
             None => self.collision_shape.as_deref(),
         }
+    }
+
+    /// Returns the place of the surface nearest to a point that is inside a solid mesh, and the outward
+    /// direction there, both in the frame of the collider, where it is at the start of the tick; `None`
+    /// for points that are outside or deeper than `ColliderDesc::solid`.
+    pub fn nearest_from_inside(&self, point: Vec3) -> Option<(Vec3, Vec3)> {
+        let mut nearest = NearestPlace::new(point, self.desc.solid);
+        match (&self.deformation, self.collision_shape.as_deref()) {
+            (Some(deformation), _) => deformation.visit_near(&mut nearest),
+            (None, Some(CollisionShape::TriangleSurface(surface, _))) => {
+                surface.visit_near(&mut nearest, None);
+            }
+            _ => {}
+        }
+        nearest.way_out(self.orientation)
     }
 
     /// The deformation; `None` if the collider is rigid.

@@ -15,6 +15,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bends::SurfaceBend;
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::moving_surface::{MovingSurface, MovingVertices};
+use crate::geometry::solid_mesh::NearestPlace;
 use crate::math::hasher::StateHasher;
 use crate::math::max;
 use glam::Vec3;
@@ -200,6 +201,13 @@ impl Deformation {
     pub fn pose_features(&mut self, boxes: impl Iterator<Item = Aabb>, part: [f32; 2]) {
         if let Self { last, next, surface: Some(surface), .. } = self {
             surface.pose_features(MovingVertices { last, next }, boxes, part);
+        }
+    }
+
+    /// See [`MovingSurface::visit_near`].
+    pub fn visit_near(&self, nearest: &mut NearestPlace) {
+        if let Some(surface) = &self.surface {
+            surface.visit_near(self.vertices(), nearest);
         }
     }
 

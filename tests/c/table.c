@@ -382,7 +382,7 @@ static void layers(void) {
   CHECK(layer.id == 0 && known.id == 9);
   BEGUN(MuslinColliderDesc, ground, friction, 1);
   DONE(muslin_cloth_add_collider(cloth, &ground, &known));
-  ROW(muslin_cloth_collide_with, inout_collider, VALUE, "`collider` must be a mesh", (cloth, inner, &known));
+  ROW(muslin_cloth_collide_with, inout_collider, VALUE, "`collider` must be one that `collide_with` returned", (cloth, inner, &known));
   DONE(muslin_cloth_remove_collider(cloth, known));
   DONE(muslin_cloth_destroy(inner));
 }

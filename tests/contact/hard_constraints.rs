@@ -3,8 +3,9 @@
 //! The cases come from trials in which each guarantee held alone and broke beside another one.
 
 use crate::common::crossings::crossing_count;
+use crate::common::shapes::tube;
 use muslin::glam::{Quat, Vec3};
-use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, SelfCollision, Shape, Wind};
+use muslin::{Cloth, ColliderDesc, GridDesc, MeshDesc, PinMode, SelfCollision, Shape, Wind};
 
 /// Depth below y = 0 that counts as penetration [m].
 const TOLERANCE: f32 = 1.0e-4;
@@ -164,4 +165,43 @@ fn a_fast_ball_carries_a_free_sheet_along_whatever_else_holds() {
             }
         }
     }
+}
+
+#[test]
+fn a_skirt_over_legs_that_spread_wider_than_its_hem_stretches_no_more_than_they_force_it_to() {
+    // A radius of 0.15 m at the waist, at y = 0, and of 0.3 m at the hem.
+    let (positions, indices) = tube(64, 26, 0.15, [-0.5, 0.0]);
+    let widened = |x: Vec3| Vec3::new(x.x * (1.0 - 2.0 * x.y), x.y, x.z * (1.0 - 2.0 * x.y));
+    let positions: Vec<Vec3> = positions.into_iter().map(widened).collect();
+    let pinned = (0..positions.len() as u32).filter(|i| positions[*i as usize].y == 0.0).collect();
+    let mut desc = MeshDesc { positions, indices, pinned, ..MeshDesc::default() };
+    desc.settings.max_stretch = 0.05;
+    let mut cloth = Cloth::mesh(&desc).unwrap();
+    let pose = |side: f32, angle: f32| {
+        let rotation = Quat::from_rotation_x(side * angle);
+        (Vec3::X * (0.075 * side) + rotation * Vec3::NEG_Y * 0.28, rotation)
+    };
+    let legs = [-1.0, 1.0].map(|side| {
+        let (position, rotation) = pose(side, 0.0);
+        let (shape, radius, half_height) = (Shape::Capsule, 0.08, 0.2);
+        let desc =
+            ColliderDesc { shape, radius, half_height, position, rotation, ..Default::default() };
+        (side, cloth.add_collider(&desc).unwrap())
+    });
+    let (mut greatest, mut reported) = (0.0_f32, 0);
+    for tick in 1..=30 {
+        let angle =
+            44.0_f32.to_radians() * (std::f32::consts::TAU * 2.5 * tick as f32 / 60.0).sin();
+        for (side, leg) in legs {
+            let (position, rotation) = pose(side, angle);
+            cloth.move_collider(leg, position, rotation).unwrap();
+        }
+        cloth.step(1);
+        let stats = cloth.stats();
+        assert!(stats.max_stretch < 0.0501 || stats.over_stretched > 0, "tick {tick}");
+        greatest = greatest.max(stats.max_stretch);
+        reported = reported.max(stats.over_stretched);
+    }
+    assert!((0.06..0.3).contains(&greatest), "stretched by {greatest}");
+    assert!(reported > 0);
 }

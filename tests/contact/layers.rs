@@ -313,6 +313,13 @@ fn a_wrong_layer_is_refused_and_changes_nothing() {
     let inner = Cloth::grid(&free_sheet(4, 0.3, 0.0)).unwrap();
     let mut outer = Cloth::grid(&free_sheet(4, 0.3, 0.1)).unwrap();
     let floor = outer.add_collider(&ColliderDesc::default()).unwrap();
+    let triangle = ColliderDesc {
+        shape: Shape::Mesh,
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        indices: vec![0, 1, 2],
+        ..ColliderDesc::default()
+    };
+    let body = outer.add_collider(&triangle).unwrap();
     let layer = outer.collide_with(&inner, None).unwrap();
     let removed = outer.collide_with(&inner, None).unwrap();
     outer.remove_collider(removed).unwrap();
@@ -322,7 +329,9 @@ fn a_wrong_layer_is_refused_and_changes_nothing() {
         assert_eq!((error.to_string().as_str(), outer.state_hash()), (text, before));
         error
     };
-    refused(&inner, Some(floor), "`collider` must be a mesh");
+    let text = "`collider` must be one that `collide_with` returned";
+    refused(&inner, Some(floor), text);
+    refused(&inner, Some(body), text);
     let text = "`collider` must be a live collider of this cloth";
     let error = refused(&inner, Some(removed), text);
     assert!(matches!(error, Error::BadHandle { .. }));
@@ -336,7 +345,7 @@ fn a_wrong_layer_is_refused_and_changes_nothing() {
     let mut point = inner.clone();
     (0..16).for_each(|i| point.set_position(i, Vec3::ONE).unwrap());
     refused(&point, None, "`collider.indices` must hold a triangle with an area");
-    for _ in 0..1022 {
+    for _ in 0..1021 {
         outer.add_collider(&ColliderDesc::default()).unwrap();
     }
     let before = outer.state_hash();

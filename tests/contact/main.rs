@@ -31,6 +31,7 @@ mod maps;
 mod particle_collision;
 mod rest_with_intersections;
 mod small_and_fast_bodies;
+mod solid_meshes;
 mod split_separation;
 mod surface_collision;
 mod untangling;

@@ -277,6 +277,8 @@ const shapes = {
   columns: [{ shape: "heightfield", rows: 2 }, [...NOT_WHOLE, 0, 1, 5000]],
   heights: [{ shape: "heightfield", columns: 2, rows: 2 }, [1, [0, 0, 0], [0, 0, 0, Infinity], new Float32Array(5)]],
   positions: [{ shape: "convex" }, ["", [0, 0], [0, 0, 0], new Float32Array(12), [Infinity, 0, 0]]],
+  // One triangle is not closed.
+  solid: [{ shape: "mesh", positions: [0, 0, 0, 1, 0, 0, 0, 1, 0], indices: [0, 1, 2] }, [...NOT_NUMBERS, -1, 1e6, 0.1]],
   indices: [{ shape: "mesh", positions: [0, 0, 0, 1, 0, 0, 0, 1, 0] }, [[], [0, 1], [0, 1, 3], [0, 0, 0], [0, 1, -1]]],
 };
 for (const [key, [desc, values]] of Object.entries(shapes)) {

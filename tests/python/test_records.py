@@ -36,8 +36,9 @@ def test_defaults_of_colliders_are_those_of_the_library() -> None:
         "position_stride",
         "vertex_count",
         "index_count",
+        "reserved",
     }
-    for name in ["tangential_restitution", "radius", "half_height", "spacing"]:
+    for name in ["tangential_restitution", "radius", "half_height", "spacing", "solid"]:
         assert parameters[name].default == getattr(desc, name)
     for name in ["friction", "restitution", "thickness", "top_radius"]:
         assert parameters[name].default is None and getattr(desc, name) == -1

@@ -107,6 +107,7 @@ export const COLLIDER = {
   spacing: NUMBER,
   columns: UINT32,
   rows: UINT32,
+  solid: NUMBER,
 };
 
 export const WRITE = {

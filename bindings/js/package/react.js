@@ -153,7 +153,7 @@ function addFollowing({ cloth, colliders }, desc, group, mesh) {
 /** The fields of a collider that are no props of a group. */
 const COLLIDER_PROPS = [
   ...["shape", "friction", "restitution", "tangentialRestitution", "thickness", "radius", "topRadius", "halfHeight"],
-  ...["halfExtents", "spacing", "columns", "rows", "positions", "indices", "heights"],
+  ...["halfExtents", "spacing", "columns", "rows", "solid", "positions", "indices", "heights"],
 ];
 
 export const Collider = forwardRef(function Collider({ children, ...props }, ref) {

@@ -32,6 +32,7 @@ impl RawCloth {
             spacing: list.number(),
             columns: list.count(),
             rows: list.count(),
+            solid: list.number(),
             positions: packing::to_vectors(positions),
             indices: indices.to_vec(),
             heights: heights.to_vec(),

@@ -112,5 +112,6 @@ pub fn default_collider() -> Vec<f64> {
     list.vector(desc.half_extents);
     list.number(desc.spacing);
     list.counts(&[desc.columns, desc.rows]);
+    list.number(desc.solid);
     list.0
 }

@@ -321,10 +321,11 @@ fn rebuild(world: &mut World, margin: f32, [moment, length]: [f32; 2], is_partia
             let Some(shape) = body.collision_shape() else { continue };
             let deformation = body.deformation().filter(|_| is_deforming);
             entry.candidates = match deformation.and_then(|one| one.sharp_features()) {
-                Some(sharp) => {
+                Some(mut sharp) => {
                     let (pairs, moved) = (&nearby.earlier, &nearby.moved[..]);
                     let earlier = is_partial.then_some(Earlier { pairs, range, moved });
-                    let shape = (shape, sharp);
+                    let shape: (_, &mut dyn Iterator<Item = u32>) = (shape, &mut sharp);
+                    let search = (search, shares, moment);
                     candidates.push_pairs_of_deforming(shape, &world.mesh, bounds, search, earlier)
                 }
                 None => {

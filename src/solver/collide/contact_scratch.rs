@@ -9,6 +9,7 @@
 use crate::math::reserve::ReserveTotal;
 use crate::solver::collide::body_motion::BodyMotion;
 use crate::solver::collide::collider_contact::ColliderContact;
+use crate::solver::collide::inside_count::InsideCount;
 use crate::solver::collide::long_pairs::LongPairs;
 use crate::solver::collide::long_triangles::LongTriangles;
 use crate::solver::collide::nearby_blocks::NearbyBlocks;
@@ -53,6 +54,8 @@ pub(crate) struct ContactScratch {
     pub(super) contact_slots: Vec<u32>,
     /// Scratch: whether each particle was found inside a collider; empty if none was.
     pub(super) is_inside: Vec<bool>,
+    /// The held and the free particles inside solid meshes that do not come out in this tick.
+    pub(super) in_solid_meshes: [InsideCount; 2],
 }
 
 impl ContactScratch {

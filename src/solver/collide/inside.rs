@@ -6,6 +6,7 @@
 
 use crate::geometry::collision_shape::CollisionShape;
 use crate::solver::collide::distance_cull;
+use crate::solver::collide::inside_count::InsideCount;
 use crate::solver::collide::nearby_blocks::BLOCK;
 use crate::solver::world::World;
 use crate::state::events::EventKind;
@@ -13,24 +14,9 @@ use crate::state::events::EventKind;
 /// The depth from which a particle counts as inside [m].
 const DEPTH: f32 = 1.0e-4;
 
-/// Particles inside a collider: how many, and the first.
-#[derive(Clone, Copy, Debug, Default)]
-struct Found {
-    count: u32,
-    first: u32,
-}
-
-impl Found {
-    fn add(&mut self, particle: u32) {
-        if self.count == 0 || particle < self.first {
-            self.first = particle;
-        }
-        self.count += 1;
-    }
-}
-
 /// Counts the particles inside colliders, and reports them by one event each for held and for free
-/// ones. Nothing is inside a triangle mesh, which has two sides.
+/// ones. Inside a mesh, which
+/// has two sides, only those count that `solid_meshes` found there.
 pub(crate) fn report(world: &mut World) {
     let [held, free] = find(world);
     if world.violations.held_inside.update(held.count) {
@@ -42,15 +28,15 @@ pub(crate) fn report(world: &mut World) {
 }
 
 #[inline(never)]
-fn push_event(world: &mut World, kind: EventKind, found: Found) {
+fn push_event(world: &mut World, kind: EventKind, found: InsideCount) {
     let mut event = world.event_at(kind, world.particles.x.get(found.first as usize));
     (event.particle_a, event.count) = (found.first, found.count);
     world.events.push(event);
 }
 
 /// Returns the held particles and the free ones that are inside a collider.
-fn find(world: &mut World) -> [Found; 2] {
-    let mut found = [Found::default(); 2];
+fn find(world: &mut World) -> [InsideCount; 2] {
+    let mut found = world.scratch.contacts.in_solid_meshes;
     let (contacts, particles) = (&mut world.scratch.contacts, &world.particles);
     let (count, is_counted) = (particles.len(), &mut contacts.is_inside);
     is_counted.clear();

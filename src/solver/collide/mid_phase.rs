@@ -20,6 +20,7 @@ use crate::geometry::bends::SurfaceBend;
 use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{EdgeFeature, Feature, Features, ShapeFeatures};
+use crate::geometry::swept_box::SweptBox;
 use crate::math::max;
 use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Mesh, NONE};
@@ -42,11 +43,12 @@ pub(crate) struct ColliderPairs {
     /// The features of heightfields near the cloth, which are made on the fly.
     terrain_features: Features,
     motion_bounds: Vec<MotionBound>,
-    /// The features near a block of triangles, with their bounds.
-    block_features: Vec<(u32, Aabb)>,
-    /// Features that a search was given, with their bounds, and the bounds of each group of them.
-    given: Vec<(u32, Aabb)>,
-    given_groups: Vec<Aabb>,
+    /// Features that a search tests, with their boxes, and the box of each group of them.
+    given: Vec<(u32, SweptBox)>,
+    given_groups: Vec<SweptBox>,
+    /// The motion of each particle likewise, and the numbers of the groups near a block of triangles.
+    swept_particles: Vec<SweptBox>,
+    near_groups: Vec<u32>,
     /// For each triangle, and the end, the numbers of edges and vertices before its own; only of
     /// colliders that deform.
     pair_starts: Vec<[u32; 2]>,
@@ -175,15 +177,16 @@ impl ColliderPairs {
         self.vertices.reserve_total(few * triangles);
         self.face_starts.reserve_total(bodies * (particles + 1));
         self.faces.reserve_total(8 * few * particles);
-        self.block_features.reserve_total(triangles);
+        self.given.reserve_total(triangles);
+        self.given_groups.reserve_total(triangles.div_ceil(GROUP));
+        self.near_groups.reserve_total(triangles.div_ceil(GROUP));
+        self.swept_particles.reserve_total(particles);
         self.terrain_features.reserve(triangles);
         self.motion_bounds.reserve_total(particles);
     }
 
     /// Allocates likewise what only colliders that deform need.
     pub fn reserve_for_deforming(&mut self, bodies: usize, triangles: usize) {
-        self.given.reserve_total(triangles);
-        self.given_groups.reserve_total(triangles.div_ceil(GROUP));
         self.pair_starts.reserve_total(bodies * (triangles + 1));
     }
 
@@ -196,18 +199,12 @@ impl ColliderPairs {
         self.pair_starts.clear();
     }
 
-    /// Sets the features that a search tests.
-    fn set_given(&mut self, own: &ShapeFeatures, given: impl Iterator<Item = u32>) {
-        self.given.clear();
-        self.given.extend(given.map(|id| (id, own.features.bounds(id))));
-        let merged = |group: &[(u32, Aabb)]| {
-            group.iter().fold(Aabb::EMPTY, |mut all, (_, bounds)| {
-                all.merge(bounds);
-                all
-            })
-        };
-        self.given_groups.clear();
-        self.given_groups.extend(self.given.chunks(GROUP).map(merged));
+    /// Sets the boxes of particles for a search.
+    #[inline(never)]
+    fn set_particles(&mut self, distance: f32) {
+        self.swept_particles.clear();
+        let boxes = self.motion_bounds.iter().map(|one| one.swept_box(distance));
+        self.swept_particles.extend(boxes);
     }
 
     /// Returns the pairs of a collider.
@@ -234,65 +231,79 @@ impl ColliderPairs {
         self.motion_bounds.clear();
         self.motion_bounds.extend((0..count).map(motion_bound));
         let range = self.begin_range();
-        self.push_faces(shape, search.distance, None);
+        self.push_faces(shape, (search.distance, 1.0), None);
         self.push_feature_pairs(shape, mesh, search);
         self.end_range(range)
     }
 
     /// Pushes the candidate pairs of a collider that deforms and returns their range, as
     /// [`ColliderPairs::push_pairs`] does. It takes the motion bounds. With `earlier` it searches only
-    /// for some particles, and copies the pairs of the others from there.
+    /// for some particles, and copies the pairs of the others from there. `shares` are the parts of a
+    /// tick that are left and that the substep has taken, at `moment` of it.
     pub(super) fn push_pairs_of_deforming(
         &mut self,
-        (shape, sharp): (&CollisionShape, impl Iterator<Item = u32>),
+        (shape, sharp): (&CollisionShape, &mut dyn Iterator<Item = u32>),
         mesh: &Mesh,
         motion_bounds: &mut Vec<MotionBound>,
-        search: PairSearch,
+        (search, shares, moment): (PairSearch, [f32; 2], f32),
         earlier: Option<Earlier<'_>>,
     ) -> CandidateRange {
         let Some(own) = features_of(shape) else { return CandidateRange::default() };
         core::mem::swap(&mut self.motion_bounds, motion_bounds);
-        self.set_given(own, sharp);
+        set_given((&mut self.given, &mut self.given_groups), &own.features, sharp, shares);
+        self.set_particles(search.distance);
         let range = self.begin_range();
-        self.push_faces(shape, search.distance, earlier);
+        self.push_faces(shape, (search.distance, moment), earlier);
         for (number, block) in mesh.triangles.chunks(BLOCK).enumerate() {
-            self.push_block(&own.features, search.distance, mesh, (number * BLOCK, block), earlier);
+            let parts = (&own.features, mesh);
+            self.push_block(parts, search.distance, (number * BLOCK, block), (true, earlier));
         }
         self.pair_starts.push([self.edges.len() as u32, self.vertices.len() as u32]);
         self.end_range(range)
     }
 
-    /// Pushes the pairs of a block of triangles and the given features.
+    /// Pushes the pairs of a block of triangles and the given features. `has_starts` says that it lists
+    /// where those of each triangle start.
+    #[inline(never)]
     fn push_block(
         &mut self,
-        features: &Features,
+        (features, mesh): (&Features, &Mesh),
         distance: f32,
-        mesh: &Mesh,
         (first, block): (usize, &[[u32; 3]]),
-        earlier: Option<Earlier<'_>>,
+        (has_starts, earlier): (bool, Option<Earlier<'_>>),
     ) {
         let is_searched =
             |corners: &&[u32; 3]| earlier.is_none_or(|earlier| earlier.has_moved(corners));
-        let mut bounds = Aabb::EMPTY;
-        block.iter().filter(is_searched).flatten().for_each(|i| {
-            bounds.merge(&self.motion_bounds[*i as usize].bounds);
-        });
-        self.block_features.clear();
-        for (group, all) in self.given.chunks(GROUP).zip(&self.given_groups) {
-            if all.overlaps(&bounds) {
-                let near = group.iter().filter(|(_, one)| one.overlaps(&bounds));
-                self.block_features.extend(near);
-            }
-        }
+        let swept = |corners: &[u32]| {
+            let mut all = SweptBox::EMPTY;
+            corners.iter().for_each(|i| all.merge(&self.swept_particles[*i as usize]));
+            all
+        };
+        let mut all = SweptBox::EMPTY;
+        block.iter().filter(is_searched).for_each(|corners| all.merge(&swept(corners)));
+        self.near_groups.clear();
+        let groups = (0..).zip(&self.given_groups).filter(|(_, group)| group.may_meet(&all));
+        self.near_groups.extend(groups.map(|(number, _)| number));
         let motion_bounds = &self.motion_bounds;
         let searched = TriangleBlock { features, motion_bounds, distance };
         for (triangle, corners) in (first..).zip(block) {
-            self.pair_starts.push([self.edges.len() as u32, self.vertices.len() as u32]);
-            let pairs = (&mut self.edges, &mut self.vertices);
-            match earlier {
-                Some(earlier) if !earlier.has_moved(corners) => earlier.copy_pairs(triangle, pairs),
-                _ => searched.push_pairs_of(mesh, triangle, &self.block_features, pairs),
+            if has_starts {
+                self.pair_starts.push([self.edges.len() as u32, self.vertices.len() as u32]);
             }
+            let pairs = (&mut self.edges, &mut self.vertices);
+            if let Some(earlier) = earlier.filter(|earlier| !earlier.has_moved(corners)) {
+                earlier.copy_pairs(triangle, pairs);
+                continue;
+            }
+            let own = swept(corners);
+            let groups = self.near_groups.iter().map(|group| *group as usize);
+            let near = groups.filter(|group| self.given_groups[*group].may_meet(&own));
+            let near = near.flat_map(|group| {
+                let first = group * GROUP;
+                &self.given[first..(first + GROUP).min(self.given.len())]
+            });
+            let near = near.filter(|(_, one)| one.may_meet(&own)).map(|(id, _)| *id);
+            searched.push_pairs_of(mesh, triangle, near, pairs);
         }
     }
 
@@ -312,7 +323,12 @@ impl ColliderPairs {
     }
 
     /// Pushes the faces within `distance` [m] of each particle.
-    fn push_faces(&mut self, shape: &CollisionShape, distance: f32, earlier: Option<Earlier<'_>>) {
+    fn push_faces(
+        &mut self,
+        shape: &CollisionShape,
+        (distance, moment): (f32, f32),
+        earlier: Option<Earlier<'_>>,
+    ) {
         let bounds = shape.bounds();
         let has_faces =
             matches!(shape, CollisionShape::ConvexHull(..) | CollisionShape::TriangleSurface(..));
@@ -335,7 +351,8 @@ impl ColliderPairs {
                 }
                 CollisionShape::TriangleSurface(surface, _) => {
                     let point = (particle.center, &particle.motion);
-                    surface.push_triangles_near(point, radius, particle.bounds, &mut self.faces);
+                    let space = (particle.bounds, moment);
+                    surface.push_triangles_near(point, radius, space, &mut self.faces);
                 }
                 _ => {}
             }
@@ -347,6 +364,7 @@ impl ColliderPairs {
     /// features.
     fn push_feature_pairs(&mut self, shape: &CollisionShape, mesh: &Mesh, search: PairSearch) {
         let bounds = shape.bounds();
+        self.set_particles(search.distance);
         let earlier = self.terrain_features.counts();
         if let CollisionShape::Heightfield(terrain) = shape {
             let mut all = Aabb::EMPTY;
@@ -361,31 +379,44 @@ impl ColliderPairs {
             if !block_bounds.overlaps(&bounds) {
                 continue;
             }
-            self.block_features.clear();
+            let given = (&mut self.given, &mut self.given_groups);
+            let terrain = core::mem::take(&mut self.terrain_features);
             let features = match features_of(shape) {
                 Some(own) => {
                     let all = own.overlapping(block_bounds);
                     let sharp = all.filter(|id| !search.is_smooth(&own.features.bend(*id)));
-                    self.block_features.extend(sharp.map(|id| (id, own.features.bounds(id))));
+                    set_given(given, &own.features, &mut { sharp }, [0.0; 2]);
                     &own.features
                 }
                 None => {
-                    let ids = self.terrain_features.ids_since(earlier);
-                    let all = ids.map(|id| (id, self.terrain_features.bounds(id)));
-                    let near = all.filter(|(_, bounds)| bounds.overlaps(&block_bounds));
-                    self.block_features.extend(near);
-                    &self.terrain_features
+                    set_given(given, &terrain, &mut terrain.ids_since(earlier), [0.0; 2]);
+                    &terrain
                 }
             };
-            let first = number * BLOCK;
-            let (motion_bounds, distance) = (&self.motion_bounds, search.distance);
-            let block = TriangleBlock { features, motion_bounds, distance };
-            for triangle in first..(first + BLOCK).min(mesh.triangles.len()) {
-                let pairs = (&mut self.edges, &mut self.vertices);
-                block.push_pairs_of(mesh, triangle, &self.block_features, pairs);
-            }
+            let block = (number * BLOCK, block);
+            self.push_block((features, mesh), search.distance, block, (false, None));
+            self.terrain_features = terrain;
         }
     }
+}
+
+/// Sets the features that a search tests, and the boxes of their groups, for times that are these shares
+/// of a tick after and before now.
+#[inline(never)]
+fn set_given(
+    (given, groups): (&mut Vec<(u32, SweptBox)>, &mut Vec<SweptBox>),
+    features: &Features,
+    ids: &mut dyn Iterator<Item = u32>,
+    shares: [f32; 2],
+) {
+    given.clear();
+    given.extend(ids.map(|id| (id, features.swept_box(id, shares))));
+    groups.clear();
+    groups.extend(given.chunks(GROUP).map(|group| {
+        let mut all = SweptBox::EMPTY;
+        group.iter().for_each(|(_, one)| all.merge(one));
+        all
+    }));
 }
 
 /// A block of cloth triangles and the features of one shape.
@@ -398,29 +429,25 @@ struct TriangleBlock<'a> {
 
 impl TriangleBlock<'_> {
     /// Pushes the pairs of a triangle and of those of its edges that no triangle with a lower index
-    /// has.
+    /// has, with some features.
     fn push_pairs_of(
         &self,
         mesh: &Mesh,
         triangle: usize,
-        block_features: &[(u32, Aabb)],
+        near: impl Iterator<Item = u32>,
         (edges, vertices): (&mut Vec<EdgeEdgePair>, &mut Vec<VertexTrianglePair>),
     ) {
         let corners = mesh.triangles[triangle];
         let [a, b, c] = corners.map(|i| self.motion_bounds[i as usize]);
-        let mut triangle_bounds = a.bounds;
-        triangle_bounds.merge(&b.bounds);
-        triangle_bounds.merge(&c.bounds);
         let across = mesh.across[triangle];
-        let near = block_features.iter().filter(|(_, bounds)| bounds.overlaps(&triangle_bounds));
-        for (feature, _) in near {
-            match self.features.get(*feature) {
+        for feature in near {
+            match self.features.get(feature) {
                 Feature::Edge(edge) => {
                     for (k, ends) in [[a, b], [b, c], [c, a]].into_iter().enumerate() {
                         let is_own = across[k] == NONE || across[k] as usize > triangle;
-                        if is_own && self.is_edge_near((edge, *feature), ends) {
+                        if is_own && self.is_edge_near((edge, feature), ends) {
                             let particles = [corners[k], corners[(k + 1) % 3]];
-                            edges.push(EdgeEdgePair { edge: *feature, particles });
+                            edges.push(EdgeEdgePair { edge: feature, particles });
                         }
                     }
                 }
@@ -430,7 +457,7 @@ impl TriangleBlock<'_> {
                     let distance2 = closest.length_squared();
                     let radius = max(max(a.radius, b.radius), c.radius);
                     let motions = [&a.motion, &b.motion, &c.motion];
-                    let reach = self.features.reach(*feature, motions);
+                    let reach = self.features.reach(feature, motions);
                     let most = self.distance + radius + reach;
                     if distance2.is_nan() || distance2 <= most * most {
                         vertices.push(VertexTrianglePair { vertex: index, particles: corners });

@@ -27,6 +27,7 @@ pub(crate) mod contact_scratch;
 mod distance_cull;
 mod edge_vs_feature;
 pub(crate) mod inside;
+mod inside_count;
 mod local_particles;
 mod long_pairs;
 mod long_triangles;
@@ -39,6 +40,7 @@ mod push_accumulator;
 pub(crate) mod relative_motion;
 pub(crate) mod response;
 pub(crate) mod second_response;
+pub(crate) mod solid_meshes;
 mod triangle_vs_round;
 
 use crate::geometry::collision_shape::CollisionShape;
@@ -106,6 +108,7 @@ pub(crate) fn begin_tick(world: &mut World) {
     scratch.collider_contacts.clear();
     scratch.long.invalidate();
     scratch.first_pusher = 0;
+    scratch.in_solid_meshes = Default::default();
     scratch.impulses.clear();
     scratch.impulses.extend(world.colliders.iter().map(|_| Impulse::default()));
     scratch.late_pushes.clone_from(&scratch.impulses);

@@ -13,6 +13,7 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::relative_motion::PointMotion;
+use crate::geometry::swept_box::SweptBox;
 use crate::math::columns::Columns;
 use crate::math::max;
 use crate::state::colliders::ColliderBody;
@@ -55,6 +56,13 @@ impl MotionBound {
         let low = self.bounds.low + half - Vec3::splat(length);
         let bounds = Aabb { low, high: self.bounds.high + half + Vec3::splat(length) };
         Self { center: self.center + half, radius: self.radius + length, bounds, ..self }
+    }
+
+    /// Returns the box with `distance` [m] around it that moves as predicted.
+    pub fn swept_box(&self, distance: f32) -> SweptBox {
+        let half = Vec3::splat(self.radius + distance);
+        let now = Aabb { low: self.center - half, high: self.center + half };
+        SweptBox::new(now, self.motion.displacements, [0.0; 2])
     }
 
     /// Adds a motion to the box.

@@ -9,11 +9,14 @@ use crate::math::columns::Columns;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RollbackState {
     pub positions: Columns,
+    /// Where the particles were before the rollback [m].
+    pub before: Columns,
 }
 
 impl RollbackState {
     /// Allocates a buffer for `particles` particles.
     pub fn with_capacity(particles: usize) -> Self {
-        Self { positions: Columns::with_capacity(particles) }
+        let [positions, before] = [0; 2].map(|_| Columns::with_capacity(particles));
+        Self { positions, before }
     }
 }

@@ -10,7 +10,8 @@
 //!      every round                  a sweep as in 1 (forward, backward in turn),
 //!                                   then colliders, anchors and sewn pairs
 //! 3. Repeat: both ends of every l > (1 + 0.996 e) r go to their rollback         roll_back
-//!    positions, until none moves; then colliders
+//!    positions, until none moves; then colliders. If a link is longer then
+//!    than before step 3, step 3 is undone
 //! 4. Velocities follow the corrections                                           update_velocities
 //! ```
 //! The sweeps are those of Provot, "Deformation constraints in a mass-spring model", Graphics
@@ -42,6 +43,7 @@
 //! `violations` and one event. Invariant: a link that was within the limit a tick ago is within
 //! it now.
 
+use crate::geometry::collision_shape::CollisionShape;
 use crate::math::columns::Columns;
 use crate::math::max;
 use crate::model::links::{LinkKind, Links};
@@ -51,6 +53,7 @@ use crate::solver::stretch::distance::project_upper_bound;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{rollback, sewn_pairs, tethers};
 use crate::solver::world::World;
+use crate::state::colliders::ColliderBody;
 use crate::state::events::EventKind;
 use glam::Vec3;
 
@@ -59,6 +62,13 @@ const MAX_ROUNDS: u32 = 24;
 
 /// The largest number of rounds for a cloth that was held apart and cannot roll back.
 const MAX_CONTRACTION_ROUNDS: u32 = 2000;
+
+/// The same among colliders, where it goes on in the next tick: a tick costs a few normal ones.
+const MAX_CONTRACTION_ROUNDS_AMONG_COLLIDERS: u32 = 100;
+
+/// The first round that pushes triangles out of colliders too. Before, particles are enough to see
+/// whether the limit can hold; where it cannot, the cloth may stay where the last round leaves it.
+const FIRST_SURFACE_ROUND: u32 = 16;
 
 /// The rounding margin, as a share of `max_stretch`: the solver aims at a limit below the
 /// guaranteed one.
@@ -121,7 +131,12 @@ fn project_all(world: &mut World, limit: f32) {
     tethers::refresh_pin_positions(world);
     let has_colliders = world.colliders.iter().next().is_some();
     let mut excess = f32::INFINITY;
-    for round in 0..if is_free_again { MAX_CONTRACTION_ROUNDS } else { MAX_ROUNDS } {
+    let most = match (is_free_again, has_colliders) {
+        (true, true) => MAX_CONTRACTION_ROUNDS_AMONG_COLLIDERS,
+        (true, false) => MAX_CONTRACTION_ROUNDS,
+        (false, _) => MAX_ROUNDS,
+    };
+    for round in 0..most {
         if is_free_again {
             tethers::project(world, target);
         }
@@ -139,7 +154,11 @@ fn project_all(world: &mut World, limit: f32) {
                 .rev()
                 .for_each(|kind| project_upper_bound(world, kind, SweepOrder::Backward, target));
         }
-        collide::project_out(world, Projection::Particles);
+        let is_late = !is_free_again && round >= FIRST_SURFACE_ROUND;
+        collide::project_out(
+            world,
+            if is_late { Projection::Surface } else { Projection::Particles },
+        );
         anchors::project_at_end(world);
         sewn_pairs::join(world);
         if find_over_stretched(world, limit).is_none() {
@@ -163,10 +182,7 @@ fn project_all(world: &mut World, limit: f32) {
         // If anchors hold the cloth apart now, they did so in the last tick too, and there is no
         // valid state to roll back to. The cloth contracts as far as the anchors permit.
         if !(was_over && has_anchors) {
-            roll_back(world, limit);
-            // Colliders take precedence: what they swept over cannot stay where it was. What rests on
-            // them may: pushing it farther out in every tick would never let it rest.
-            collide::project_out(world, Projection::Surface);
+            roll_back_unless_worse(world, limit);
         }
         anchors::project_at_end(world);
         update_velocities(world);
@@ -229,6 +245,30 @@ fn is_held_apart(world: &World, limit: f32) -> bool {
             span.length() > set.length[i] * limit
         })
     })
+}
+
+/// Rolls back, and then pushes the cloth out of colliders. They take precedence: what they swept over
+/// cannot stay where it was. Where they then hold the cloth farther apart than the rounds left it, it
+/// goes back there, and the excess is reported. Beside surfaces with two sides it stays rolled back:
+/// cloth that is pulled through one at a pinch could not come back.
+fn roll_back_unless_worse(world: &mut World, limit: f32) {
+    let is_two_sided = |body: &ColliderBody| {
+        let shape = body.collision_shape();
+        body.desc.solid == 0.0 && matches!(shape, Some(CollisionShape::TriangleSurface(..)))
+    };
+    let can_return = !world.colliders.iter().any(|body| is_two_sided(body));
+    let excess = if can_return { largest_excess(world, limit) } else { 0.0 };
+    if excess > 0.0 {
+        world.scratch.rollback.before.copy_from(&world.particles.x);
+    }
+    roll_back(world, limit);
+    // What rests on a collider may stay within a part of the gap: pushing it farther out in every
+    // tick would never let it rest.
+    collide::project_out(world, Projection::Surface);
+    if excess > 0.0 && largest_excess(world, limit) > excess {
+        world.particles.x.copy_from(&world.scratch.rollback.before);
+        collide::project_out(world, Projection::Surface);
+    }
 }
 
 /// Moves the ends of every link that is too long to their rollback positions (see `rollback`), and

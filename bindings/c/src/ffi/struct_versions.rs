@@ -40,8 +40,7 @@ versioned_structs! {
     MuslinSettings: tearing[4], pressure[4], "muslin_settings_init";
     MuslinMaterial: yield_creep[4], yield_weakening[4], "muslin_material_init";
     MuslinWind: seed[4], seed[4], "muslin_wind_init";
-    MuslinColliderDesc: restitution[4], heights[size_of::<*const f32>()],
-        "muslin_collider_desc_init";
+    MuslinColliderDesc: restitution[4], reserved[4], "muslin_collider_desc_init";
     MuslinEvent: source[4], count[4], "muslin_event_init";
     MuslinHit: normal[12], normal[12], "muslin_hit_init";
     MuslinView: state_revision[4], particles[size_of::<*const u32>()], "muslin_view_init";

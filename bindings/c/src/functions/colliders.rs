@@ -98,7 +98,7 @@ pub unsafe extern "C" fn muslin_cloth_update_collider(
 /// contains the collider, and the handle is valid for the restored cloth too.
 ///
 /// @return MUSLIN_STATUS_BAD_HANDLE if a cloth is not live, or the collider was removed;
-/// MUSLIN_STATUS_BAD_VALUE if `other` is the cloth itself, the collider is no mesh, no triangle of
+/// MUSLIN_STATUS_BAD_VALUE if `other` is the cloth itself, this call did not return the collider, no triangle of
 /// `other` has an area, or a particle of it is 1e6 m or more from its origin; MUSLIN_STATUS_FULL if
 /// there are 1024 colliders already; MUSLIN_STATUS_BUSY if either cloth is in use on another thread
 #[unsafe(no_mangle)]

@@ -20,7 +20,8 @@ pub const MUSLIN_SHAPE_CONVEX: u32 = 4;
 /// Triangle mesh: the triangles of `indices` over `positions`.
 ///
 /// The cloth stays on the side where it is: both sides are outside. So the mesh need not be closed
-/// or consistently wound. The gap is at least 0.1 mm.
+/// or consistently wound. With `solid` a closed mesh pushes out what is inside. The gap is at least
+/// 0.1 mm.
 pub const MUSLIN_SHAPE_MESH: u32 = 5;
 /// Terrain: all below a surface over a grid of `columns` * `rows` heights.
 ///
@@ -86,6 +87,16 @@ pub struct MuslinColliderDesc {
     pub indices: *const u32,
     /// Heightfield: `columns` * `rows` heights [m], row by row along x.
     pub heights: *const f32,
+    /// Mesh: depth from which it pushes out particles that are inside [m]. Default 0: both sides of its
+    /// triangles are outside. Below 1e6.
+    ///
+    /// Above 0 the mesh must be closed and consistently wound: every edge in two triangles, once in
+    /// each direction. Normals may point inward or outward. Particles come out towards the nearest
+    /// place of the surface at 0.05 m/s; deeper ones stay. It costs a search per particle near the mesh
+    /// in every tick.
+    pub solid: f32,
+    /// Not used. Default 0.
+    pub reserved: u32,
 }
 
 impl Default for MuslinColliderDesc {
@@ -113,6 +124,8 @@ impl Default for MuslinColliderDesc {
             positions: ptr::null(),
             indices: ptr::null(),
             heights: ptr::null(),
+            solid: desc.solid,
+            reserved: 0,
         }
     }
 }
@@ -145,6 +158,7 @@ impl MuslinColliderDesc {
             spacing: self.spacing,
             columns: self.columns,
             rows: self.rows,
+            solid: self.solid,
             ..ColliderDesc::default()
         };
         let require = |fits: bool, field: &str, must: &str| {

@@ -82,6 +82,7 @@ class Colliders(ClothBase):
         half_height: float = 0.5,
         half_extents: Vec3Like = (0.5, 0.5, 0.5),
         spacing: float = 1.0,
+        solid: float = 0.0,
         positions: ArrayLike | None = None,
         indices: ArrayLike | None = None,
         heights: ArrayLike | None = None,
@@ -109,6 +110,9 @@ class Colliders(ClothBase):
         `tangential_restitution` is the share of the tangential velocity that remains after each
         substep in contact, in addition to Coulomb friction.
 
+        `solid` is the depth from which a mesh pushes out particles that are inside [m]; 0: both
+        sides of its triangles are outside. Above 0 the mesh must be closed and consistently wound.
+
         Raises `Error` for an invalid field, and if there are 1024 colliders already.
         """
         desc = MuslinColliderDesc()
@@ -126,6 +130,7 @@ class Colliders(ClothBase):
             "top_radius": top_radius,
             "half_height": half_height,
             "spacing": spacing,
+            "solid": solid,
         }
         for name, number in numbers.items():
             if number is not None:

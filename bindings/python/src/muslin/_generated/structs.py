@@ -208,6 +208,8 @@ class MuslinColliderDesc(Structure):
     positions: int | None
     indices: int | None
     heights: int | None
+    solid: float
+    reserved: int
     _fields_ = [
         ("struct_size", c_uint32), ("shape", c_uint32), ("position", MuslinVec3),
         ("rotation", MuslinQuat), ("friction", c_float), ("restitution", c_float),
@@ -215,7 +217,8 @@ class MuslinColliderDesc(Structure):
         ("top_radius", c_float), ("half_height", c_float), ("half_extents", MuslinVec3),
         ("spacing", c_float), ("columns", c_uint32), ("rows", c_uint32),
         ("position_stride", c_uint32), ("vertex_count", c_uint32), ("index_count", c_uint32),
-        ("positions", c_void_p), ("indices", c_void_p), ("heights", c_void_p),
+        ("positions", c_void_p), ("indices", c_void_p), ("heights", c_void_p), ("solid", c_float),
+        ("reserved", c_uint32),
     ]
 
 
