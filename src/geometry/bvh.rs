@@ -126,8 +126,7 @@ impl Bvh {
         }
     }
 
-    /// Recomputes the bounds likewise for items that move in a tick, and sets the moving box of each
-    /// node.
+    /// Recomputes the bounds of all nodes from the moving boxes of the items, and sets those of the nodes.
     pub fn refit_moving(&mut self, boxes: &dyn Fn(u32) -> MovingBox, nodes: &mut Vec<MovingBox>) {
         nodes.resize(self.nodes.len(), MovingBox::EMPTY);
         for at in (0..self.nodes.len()).rev() {
@@ -199,8 +198,8 @@ impl Bvh {
         self.items_of_nodes(move |node| self.nodes[node].bounds.overlaps(&query))
     }
 
-    /// Returns the items of all leaves for which `is_near` holds, and for all nodes above them, in the
-    /// order of the tree. It takes the number of a node.
+    /// Returns the items of all leaves for which `is_near` is true, as for all nodes above them, in the
+    /// order of the tree. `is_near` takes the number of a node.
     pub fn items_of_nodes<'a>(
         &'a self,
         is_near: impl Fn(usize) -> bool + 'a,

@@ -240,8 +240,7 @@ impl Features {
         }
     }
 
-    /// Returns the box of a feature that moves, for times that are these shares of a tick before and
-    /// after now.
+    /// Returns the swept box of a feature. `shares` are the parts of the tick after and before now.
     pub fn swept_box(&self, id: u32, shares: [f32; 2]) -> SweptBox {
         let now = match self.get(id) {
             Feature::Edge(edge) => Aabb::from_points(edge.ends),

@@ -20,7 +20,7 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{Features, ShapeFeatures};
 use crate::geometry::moving_features::FeatureSources;
 use crate::geometry::relative_motion::{PartMotion, RigidStep};
-use crate::geometry::solid_mesh::NearestPlace;
+use crate::geometry::solid_mesh::ClosestPointQuery;
 use crate::geometry::swept_box::MovingBox;
 use crate::geometry::triangle_surface::TriangleSurface;
 use crate::math::{lerp, max};
@@ -452,11 +452,11 @@ impl MovingSurface {
         }
     }
 
-    /// Shows the triangles near a point at the start of the tick to a search for the nearest place.
-    pub fn visit_near(&self, vertices: MovingVertices<'_>, nearest: &mut NearestPlace) {
+    /// Visits the triangles near the point of a query, where they are at the start of the tick.
+    pub fn visit_near(&self, vertices: MovingVertices<'_>, query: &mut ClosestPointQuery) {
         if let CollisionShape::TriangleSurface(surface, _) = &self.shape {
             let at = |v: u32| vertices.last[v as usize];
-            surface.visit_near(nearest, Some(&|triangle| self.corners[triangle as usize].map(at)));
+            surface.visit_near(query, Some(&|triangle| self.corners[triangle as usize].map(at)));
         }
     }
 

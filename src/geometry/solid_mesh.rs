@@ -1,11 +1,10 @@
 //! The inside of a closed triangle mesh.
 //!
 //! ```text
-//! cos = n · (p − q) / |p − q|        q: place of the mesh nearest to p, n: normal of its triangle
+//! cos = n · (p − q) / |p − q|        q: closest point of the mesh to p, n: normal of its triangle
 //! ```
-//! A point is inside where the triangle nearest to it shows its back. Where several triangles are as
-//! near, at their common edge or vertex, the one counts that the point sees most squarely, with the
-//! largest |cos|: it is the one whose plane separates the point from the rest of the corner.
+//! A point is inside if it lies behind the closest triangle. If several triangles are equally close,
+//! because they share the closest edge or vertex, the one with the largest |cos| decides.
 //!
 //! Reads positions and triangles; writes nothing.
 //! Invariant: only a mesh with every edge in two triangles, once in each direction, has an inside.
@@ -18,8 +17,8 @@ use glam::Vec3;
 /// Squares of distances that differ by no more than this share count as equal.
 const TIE: f32 = 1.0e-4;
 
-/// Returns whether triangles are closed and consistently wound, and if so on which side of them their
-/// normals are: 1 if they point outward, −1 if they point inward.
+/// Returns 1 if the normals of a closed, consistently wound mesh point outward, and −1 if they point
+/// inward; `None` if it is not closed or not consistently wound.
 pub(crate) fn orientation(positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<f32> {
     let welded = weld_positions(positions);
     let (mut sides, mut volume) = (Vec::new(), 0.0);
@@ -35,26 +34,26 @@ pub(crate) fn orientation(positions: &[Vec3], triangles: &[[u32; 3]]) -> Option<
     is_closed.then_some(if volume < 0.0 { -1.0 } else { 1.0 })
 }
 
-/// The place of a mesh nearest to a point, among the triangles that it was shown.
+/// A query for the closest point of a mesh, among the triangles that it visits.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct NearestPlace {
+pub(crate) struct ClosestPointQuery {
     point: Vec3,
     /// The square of the largest distance that counts [m²].
     limit: f32,
-    /// The square of the distance of the nearest triangle [m²]; infinite if there is none.
+    /// The square of the distance of the closest triangle [m²]; infinite if there is none.
     squared: f32,
-    /// The place, and the normal of its triangle as it is wound.
-    place: Vec3,
+    /// The closest point, and the normal of its triangle by the right-hand rule.
+    closest: Vec3,
     normal: Vec3,
-    /// The cosine of the angle between the normal and the way to the point.
+    /// The cosine of the angle between the normal and the direction to the point.
     cosine: f32,
 }
 
-impl NearestPlace {
-    /// Begins a search around a point, up to `distance` [m].
+impl ClosestPointQuery {
+    /// Makes a query for a point, up to `distance` [m].
     pub fn new(point: Vec3, distance: f32) -> Self {
         let (limit, squared) = (distance * distance, f32::INFINITY);
-        Self { point, limit, squared, place: Vec3::ZERO, normal: Vec3::ZERO, cosine: 0.0 }
+        Self { point, limit, squared, closest: Vec3::ZERO, normal: Vec3::ZERO, cosine: 0.0 }
     }
 
     /// The point, and the square of the distance to search [m²].
@@ -62,20 +61,20 @@ impl NearestPlace {
         (self.point, self.limit)
     }
 
-    /// Takes a triangle into account. Returns the square of the distance [m²] to search from then on.
+    /// Visits a triangle. Returns the square of the distance [m²] to search from then on.
     #[inline(never)]
     pub fn visit(&mut self, corners: [Vec3; 3]) -> f32 {
         let relative = corners.map(|corner| corner - self.point);
-        let way = interpolate(relative, triangle_to_origin(relative));
-        let squared = way.length_squared();
+        let offset = interpolate(relative, triangle_to_origin(relative));
+        let squared = offset.length_squared();
         if squared <= self.limit && squared <= self.squared * (1.0 + TIE) {
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
             let area = normal.length();
             let normal = normal * if area > 0.0 { 1.0 / area } else { 0.0 };
-            let cosine = if squared > 0.0 { -way.dot(normal) / squared.sqrt() } else { 0.0 };
+            let cosine = if squared > 0.0 { -offset.dot(normal) / squared.sqrt() } else { 0.0 };
             let is_nearer = squared < self.squared * (1.0 - TIE);
             if is_nearer || cosine.abs() > self.cosine.abs() {
-                (self.place, self.normal, self.cosine) = (self.point + way, normal, cosine);
+                (self.closest, self.normal, self.cosine) = (self.point + offset, normal, cosine);
             }
             if squared < self.squared {
                 self.squared = squared;
@@ -85,15 +84,15 @@ impl NearestPlace {
         least * (1.0 + TIE)
     }
 
-    /// Returns the nearest place and the outward direction there if the point is inside a mesh of this
-    /// orientation.
-    pub fn way_out(&self, orientation: f32) -> Option<(Vec3, Vec3)> {
+    /// Returns the closest point and the direction to it, of length one, if the point is inside a mesh of
+    /// this orientation.
+    pub fn if_inside(&self, orientation: f32) -> Option<(Vec3, Vec3)> {
         if self.squared == f32::INFINITY || self.cosine * orientation >= 0.0 {
             return None;
         }
-        let way = self.place - self.point;
-        let length = way.length();
-        Some((self.place, if length > 0.0 { way * (1.0 / length) } else { self.normal }))
+        let offset = self.closest - self.point;
+        let length = offset.length();
+        Some((self.closest, if length > 0.0 { offset * (1.0 / length) } else { self.normal }))
     }
 }
 
@@ -117,15 +116,15 @@ mod tests {
     #[test]
     fn points_beside_faces_edges_and_corners_are_told_inside_from_outside() {
         let find = |point: Vec3, distance: f32| {
-            let mut nearest = NearestPlace::new(point, distance);
+            let mut query = ClosestPointQuery::new(point, distance);
             for face in FACES {
-                nearest.visit(face.map(|i| CORNERS[i as usize]));
+                query.visit(face.map(|i| CORNERS[i as usize]));
             }
-            nearest.way_out(1.0)
+            query.if_inside(1.0)
         };
         let inside = find(Vec3::new(0.2, 0.1, 0.3), 1.0);
-        assert!(inside.is_some_and(|(place, out)| {
-            (place - Vec3::new(0.2, 0.0, 0.3)).length() < 1.0e-6
+        assert!(inside.is_some_and(|(closest, out)| {
+            (closest - Vec3::new(0.2, 0.0, 0.3)).length() < 1.0e-6
                 && (out - Vec3::NEG_Y).length() < 1.0e-5
         }));
         assert!(find(Vec3::new(0.2, 0.1, 0.3), 0.05).is_none());

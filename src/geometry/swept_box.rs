@@ -4,10 +4,10 @@
 //! ```text
 //! start of the substep ── now ── end of the tick        each side of a box moves evenly in between
 //! ```
-//! The side of the box of a part that moves evenly is at every time within the line between its
-//! places. So two parts stay apart if one axis separates their boxes, in the same order, at all three
-//! times. A part that moves along with a surface is compared with it where both are, not with
-//! everything that the surface passes.
+//! A part that moves evenly stays within the linear interpolation of its boxes. So two parts do not
+//! meet if one axis separates their boxes, in the same order, at all three times. A part that moves
+//! along with a surface is compared with it at the same times, not with the whole space that the
+//! surface passes through.
 //!
 //! Reads and writes only its own fields.
 //! Invariant: parts that meet at any time are never reported apart; NaN counts as meeting.
@@ -29,9 +29,9 @@ impl SweptBox {
     pub const EMPTY: Self =
         Self { low: [[f32::INFINITY; 4]; 3], minus_high: [[f32::INFINITY; 4]; 3] };
 
-    /// Makes the box of a part that is in `now`, was at `now` minus `back` when the substep began, and
-    /// will be at `now` plus `forward` when the tick ends; with the distances by which its corners may
-    /// be off that, forward and back [m].
+    /// Makes the box of a part that is in `now`, moved by `back` since the substep began, and moves by
+    /// `forward` until the tick ends [m]. `spread` is the largest distance of a corner from these mean
+    /// motions, forward and back [m].
     #[inline(never)]
     pub fn new(now: Aabb, [forward, back]: [Vec3; 2], spread: [f32; 2]) -> Self {
         let ways = [(-back, spread[1]), (Vec3::ZERO, 0.0), (forward, spread[0])];

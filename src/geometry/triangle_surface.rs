@@ -18,7 +18,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bvh::Bvh;
 use crate::geometry::closest_points::{interpolate, triangle_to_origin};
 use crate::geometry::relative_motion::{PartMotion, PointMotion};
-use crate::geometry::solid_mesh::NearestPlace;
+use crate::geometry::solid_mesh::ClosestPointQuery;
 use crate::geometry::swept_box::{MovingBox, SweptBox};
 use crate::math::{TINY, max};
 use glam::Vec3;
@@ -124,17 +124,16 @@ impl TriangleSurface {
         self.tree.overlapping(bounds)
     }
 
-    /// Shows the triangles near a point, posed or as `corners` gives them, to a search for the nearest
-    /// place.
+    /// Visits the triangles near the point of a query: as they are posed, or with `corners` as given.
     pub fn visit_near(
         &self,
-        nearest: &mut NearestPlace,
+        query: &mut ClosestPointQuery,
         corners: Option<&dyn Fn(u32) -> [Vec3; 3]>,
     ) {
-        let (point, squared) = nearest.start();
+        let (point, squared) = query.start();
         self.tree.visit_near(point, squared, &mut |triangle| {
             let posed = || self.triangles[triangle as usize].corners;
-            nearest.visit(corners.map_or_else(posed, |corners| corners(triangle)))
+            query.visit(corners.map_or_else(posed, |corners| corners(triangle)))
         });
     }
 

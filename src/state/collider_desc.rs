@@ -95,11 +95,11 @@ pub struct ColliderDesc {
     pub spacing: f32,
     /// Heightfield: `columns` × `rows` heights [m], row by row along x. Default: none.
     pub heights: Vec<f32>,
-    /// Mesh: depth from which it pushes out particles that are inside [m], 0 to 1e6; 0 = both sides of
-    /// its triangles are outside. Above 0 the mesh must be closed and consistently wound, with every
-    /// edge in two triangles, once in each direction; normals may point inward or outward. Particles
-    /// come out towards the nearest place of the surface at 0.05 m/s, and deeper ones stay. It costs a
-    /// search per particle near the mesh in every tick. Default: 0.
+    /// Mesh: largest depth from which particles inside are pushed out [m], at least 0 and below 1e6; 0 =
+    /// both sides of its triangles are outside. Above 0 the mesh must be closed and consistently wound:
+    /// every edge in two triangles, once in each direction. Normals may point inward or outward.
+    /// Particles move towards the closest point of the surface at 0.05 m/s. Each tick makes one
+    /// closest-point query per particle in the bounds of the mesh. Default: 0.
     pub solid: f32,
     /// Gap between surface and particles [m], at least 0; −1 = thickness of the material. Default:
     /// −1.
@@ -269,11 +269,11 @@ impl ColliderDesc {
         (positions, triangles)
     }
 
-    /// Returns on which side of the triangles of a solid mesh their normals are, see
-    /// [`solid_mesh::orientation`]; 0 for other shapes.
+    /// Returns 1 if the normals of a solid mesh point outward, −1 if they point inward, and 0 for other
+    /// shapes.
     ///
     /// # Errors
-    /// `BadValue` if the mesh is to be solid, and is not closed and consistently wound.
+    /// `BadValue` if `solid` is above 0 and the mesh is not closed and consistently wound.
     pub(crate) fn orientation(&self) -> Result<f32> {
         if self.shape != Shape::Mesh || self.solid == 0.0 {
             return Ok(0.0);

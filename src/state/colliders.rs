@@ -6,7 +6,7 @@
 use crate::arena::Arena;
 use crate::error::{Result, check, check_finite};
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::solid_mesh::NearestPlace;
+use crate::geometry::solid_mesh::ClosestPointQuery;
 use crate::math::{max, saturate};
 use crate::state::collider_desc::{ColliderDesc, Shape};
 use crate::state::deformation::Deformation;
@@ -106,8 +106,7 @@ pub(crate) struct ColliderBody {
     /// collider deforms.
     #[serde(skip)]
     collision_shape: Option<Arc<CollisionShape>>,
-    /// On which side of the triangles of a solid mesh their normals are, see
-    /// `geometry::solid_mesh::orientation`; 0 for other shapes.
+    /// 1 if the normals of a solid mesh point outward, −1 if they point inward, 0 for other shapes.
     #[serde(skip)]
     orientation: f32,
 }
@@ -171,19 +170,24 @@ impl ColliderBody {
         }
     }
 
-    /// Returns the place of the surface nearest to a point that is inside a solid mesh, and the outward
-    /// direction there, both in the frame of the collider, where it is at the start of the tick; `None`
-    /// for points that are outside or deeper than `ColliderDesc::solid`.
-    pub fn nearest_from_inside(&self, point: Vec3) -> Option<(Vec3, Vec3)> {
-        let mut nearest = NearestPlace::new(point, self.desc.solid);
+    /// Whether this is a mesh with an inside.
+    pub fn is_solid_mesh(&self) -> bool {
+        self.desc.shape == Shape::Mesh && self.desc.solid > 0.0
+    }
+
+    /// Returns the closest point of the surface of a solid mesh to a point inside it, and the direction
+    /// to it, in the frame of the collider at the start of the tick; `None` for points that are outside
+    /// or deeper than `ColliderDesc::solid`.
+    pub fn closest_point_from_inside(&self, point: Vec3) -> Option<(Vec3, Vec3)> {
+        let mut query = ClosestPointQuery::new(point, self.desc.solid);
         match (&self.deformation, self.collision_shape.as_deref()) {
-            (Some(deformation), _) => deformation.visit_near(&mut nearest),
+            (Some(deformation), _) => deformation.visit_near(&mut query),
             (None, Some(CollisionShape::TriangleSurface(surface, _))) => {
-                surface.visit_near(&mut nearest, None);
+                surface.visit_near(&mut query, None);
             }
             _ => {}
         }
-        nearest.way_out(self.orientation)
+        query.if_inside(self.orientation)
     }
 
     /// The deformation; `None` if the collider is rigid.

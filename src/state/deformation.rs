@@ -15,7 +15,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bends::SurfaceBend;
 use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::moving_surface::{MovingSurface, MovingVertices};
-use crate::geometry::solid_mesh::NearestPlace;
+use crate::geometry::solid_mesh::ClosestPointQuery;
 use crate::math::hasher::StateHasher;
 use crate::math::max;
 use glam::Vec3;
@@ -205,9 +205,9 @@ impl Deformation {
     }
 
     /// See [`MovingSurface::visit_near`].
-    pub fn visit_near(&self, nearest: &mut NearestPlace) {
+    pub fn visit_near(&self, query: &mut ClosestPointQuery) {
         if let Some(surface) = &self.surface {
-            surface.visit_near(self.vertices(), nearest);
+            surface.visit_near(self.vertices(), query);
         }
     }
 

@@ -359,6 +359,9 @@ static void colliders(void) {
   mesh.positions = corners;
   mesh.indices = one;
   mesh.vertex_count = mesh.index_count = 3;
+  mesh.solid = 1;
+  ROW(muslin_cloth_add_collider, desc, VALUE, "`collider.solid`", (cloth, &mesh, &body));
+  mesh.solid = 0;
   DONE(muslin_cloth_add_collider(cloth, &mesh, &body));
   const float not_near[] = {0, 9, 0, 1, NAN, 0, 0, 9, 1};
   ROW(muslin_cloth_update_collider, count, VALUE, "`count`", (cloth, body, corners, 0, 2));

@@ -2,7 +2,6 @@
 
 import type { QuatLike, Vec3, Vec3Like } from "./check.js";
 import type {
-  ColliderDesc,
   GridDesc,
   MapName,
   Material,
@@ -12,7 +11,7 @@ import type {
   SewOptions,
   Wind,
 } from "./fields.js";
-import type { Attachment, Collider, Grab } from "./handles.js";
+import type { Attachment, Collider, ColliderDesc, Grab } from "./handles.js";
 import type { Changes, ClothEvent, ClothMass, Hit, MeshReport, Stats } from "./reports.js";
 import type { Skin, SkinDesc } from "./skin.js";
 import type { Stream, WriteDesc } from "./write.js";

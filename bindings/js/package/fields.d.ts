@@ -1,4 +1,4 @@
-// Descriptors: settings, material, wind, grids, meshes, colliders.
+// Descriptors: settings, material, wind, grids, meshes, sewing.
 
 import type { QuatLike, Vec3Like } from "./check.js";
 
@@ -414,77 +414,6 @@ export interface MeshDesc extends ClothDesc {
  *   along x and z from the local origin on. It is as deep as it is wide and has no sides.
  */
 export type Shape = "plane" | "sphere" | "capsule" | "box" | "convex" | "mesh" | "heightfield";
-
-/**
- * A collider: its shape, its pose and its surface. Fields that the shape does not use are ignored.
- *
- * @example
- * ```js
- * cloth.addCollider({ shape: "sphere", position: [0, 1, 0], radius: 0.4, friction: 0.6 });
- * ```
- */
-export interface ColliderDesc {
-  /** The shape. @defaultValue "plane" */
-  shape?: Shape;
-  /** Position of the local frame [m]. @defaultValue [0, 0, 0] */
-  position?: Vec3Like;
-  /** Rotation of the local frame, a unit quaternion. @defaultValue [0, 0, 0, 1] */
-  rotation?: QuatLike;
-  /** Coulomb friction coefficient; −1 means that of the material. @defaultValue -1 */
-  friction?: number;
-  /** Restitution, 0 to 1; −1 means that of the material. @defaultValue -1 */
-  restitution?: number;
-  /**
-   * Share of the sliding velocity that remains after each substep of contact, 0 to 1, in addition
-   * to friction. 1 has no effect.
-   *
-   * @defaultValue 1
-   */
-  tangentialRestitution?: number;
-  /**
-   * Gap that the cloth keeps from the surface [m]; −1 means the thickness of the material. On
-   * curved surfaces particles stay farther away, by as much as the flat triangles between them
-   * would penetrate: a fifth of the mean edge at most on spheres and capsules, a tenth on other
-   * shapes.
-   *
-   * @defaultValue -1
-   */
-  thickness?: number;
-  /** Sphere, capsule: radius [m]; above 0. @defaultValue 0.5 */
-  radius?: number;
-  /** Capsule: radius of the upper end [m]; above 0, or −1 for `radius`. @defaultValue -1 */
-  topRadius?: number;
-  /**
-   * Capsule: distance from its centre to the centres of its ends [m]; at least 0.
-   *
-   * @defaultValue 0.5
-   */
-  halfHeight?: number;
-  /** Box: distances from its centre to its faces [m]; above 0. @defaultValue [0.5, 0.5, 0.5] */
-  halfExtents?: Vec3Like;
-  /** Heightfield: distance between heights [m]; above 0. @defaultValue 1 */
-  spacing?: number;
-  /** Heightfield: number of heights along x, 2 to 4096. */
-  columns?: number;
-  /** Heightfield: number of heights along z, 2 to 4096. */
-  rows?: number;
-  /**
-   * Mesh: depth from which it pushes out particles that are inside [m]; below 1e6. 0: both sides of
-   * its triangles are outside. Above 0 the mesh must be closed and consistently wound, with every edge
-   * in two triangles, once in each direction; normals may point inward or outward. Particles come out
-   * towards the nearest place of the surface at 0.05 m/s; deeper ones stay. It costs a search per
-   * particle near the mesh in every tick.
-   *
-   * @defaultValue 0
-   */
-  solid?: number;
-  /** Convex hull (at most 1024 points), mesh: points x y z x y z … [m]. They are copied. */
-  positions?: Float32Array | Float64Array | readonly number[];
-  /** Mesh: three points per triangle. They are copied. */
-  indices?: Uint32Array | Uint16Array | readonly number[];
-  /** Heightfield: `columns` × `rows` heights [m], row by row along x. They are copied. */
-  heights?: Float32Array | Float64Array | readonly number[];
-}
 
 /** How `sew` joins pairs of particles. */
 export interface SewOptions {

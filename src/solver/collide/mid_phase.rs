@@ -262,8 +262,8 @@ impl ColliderPairs {
         self.end_range(range)
     }
 
-    /// Pushes the pairs of a block of triangles and the given features. `has_starts` says that it lists
-    /// where those of each triangle start.
+    /// Pushes the pairs of a block of triangles and the given features. With `has_starts` it also stores
+    /// where the pairs of each triangle start.
     #[inline(never)]
     fn push_block(
         &mut self,
@@ -293,6 +293,9 @@ impl ColliderPairs {
             let pairs = (&mut self.edges, &mut self.vertices);
             if let Some(earlier) = earlier.filter(|earlier| !earlier.has_moved(corners)) {
                 earlier.copy_pairs(triangle, pairs);
+                continue;
+            }
+            if self.near_groups.is_empty() {
                 continue;
             }
             let own = swept(corners);
@@ -400,8 +403,8 @@ impl ColliderPairs {
     }
 }
 
-/// Sets the features that a search tests, and the boxes of their groups, for times that are these shares
-/// of a tick after and before now.
+/// Sets the features that a search tests, with their swept boxes and those of their groups. `shares` are
+/// the parts of the tick after and before now.
 #[inline(never)]
 fn set_given(
     (given, groups): (&mut Vec<(u32, SweptBox)>, &mut Vec<SweptBox>),

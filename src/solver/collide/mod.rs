@@ -94,6 +94,7 @@ impl World {
         let (bodies, particles) = (self.colliders.iter().count(), self.capacity());
         if bodies > 0 {
             self.scratch.contacts.reserve(bodies, particles, self.triangle_capacity);
+            self.scratch.rollback.before.reserve(particles);
             if self.colliders.iter().any(|body| body.deformation().is_some()) {
                 let nearby = &mut self.scratch.contacts.nearby;
                 nearby.reserve_for_deforming(bodies, particles, self.triangle_capacity);

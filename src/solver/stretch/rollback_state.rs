@@ -9,14 +9,13 @@ use crate::math::columns::Columns;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RollbackState {
     pub positions: Columns,
-    /// Where the particles were before the rollback [m].
+    /// The positions before the rollback [m]; allocated with the first collider.
     pub before: Columns,
 }
 
 impl RollbackState {
     /// Allocates a buffer for `particles` particles.
     pub fn with_capacity(particles: usize) -> Self {
-        let [positions, before] = [0; 2].map(|_| Columns::with_capacity(particles));
-        Self { positions, before }
+        Self { positions: Columns::with_capacity(particles), before: Columns::default() }
     }
 }

@@ -8,10 +8,11 @@
 //! 2. At the end of the tick, until no l > (1 + 0.996 e) r, at most 24 rounds:    project_all
 //!      every 8th round              one pass along the pin order                 sweep_from_pins
 //!      every round                  a sweep as in 1 (forward, backward in turn),
-//!                                   then colliders, anchors and sewn pairs
+//!                                   then colliders (triangles too from round 16
+//!                                   on), anchors and sewn pairs
 //! 3. Repeat: both ends of every l > (1 + 0.996 e) r go to their rollback         roll_back
-//!    positions, until none moves; then colliders. If a link is longer then
-//!    than before step 3, step 3 is undone
+//!    positions, until none moves; then colliders. If the largest excess has
+//!    grown since step 2, the positions of step 2 are restored
 //! 4. Velocities follow the corrections                                           update_velocities
 //! ```
 //! The sweeps are those of Provot, "Deformation constraints in a mass-spring model", Graphics
@@ -23,7 +24,7 @@
 //! A cloth that pins, grabs or anchors hold apart cannot satisfy the limit. This is reported once.
 //! Once they release it, its last tick is not within the limit, so there is no state to roll back
 //! to. It then contracts by tethers and up to 2000 rounds, over several ticks if it was stretched
-//! far; among colliders only while rounds make progress. The particles that move get zero velocity,
+//! far; among colliders up to 100 rounds a tick, and only while rounds make progress. The particles that move get zero velocity,
 //! so that the contraction does not fling the cloth.
 //!
 //! **Velocities** (4). The corrections x − x₀ of the tick of length T count as velocity, but
@@ -43,7 +44,6 @@
 //! `violations` and one event. Invariant: a link that was within the limit a tick ago is within
 //! it now.
 
-use crate::geometry::collision_shape::CollisionShape;
 use crate::math::columns::Columns;
 use crate::math::max;
 use crate::model::links::{LinkKind, Links};
@@ -53,6 +53,7 @@ use crate::solver::stretch::distance::project_upper_bound;
 use crate::solver::stretch::sweep_order::SweepOrder;
 use crate::solver::stretch::{rollback, sewn_pairs, tethers};
 use crate::solver::world::World;
+use crate::state::collider_desc::Shape;
 use crate::state::colliders::ColliderBody;
 use crate::state::events::EventKind;
 use glam::Vec3;
@@ -63,11 +64,12 @@ const MAX_ROUNDS: u32 = 24;
 /// The largest number of rounds for a cloth that was held apart and cannot roll back.
 const MAX_CONTRACTION_ROUNDS: u32 = 2000;
 
-/// The same among colliders, where it goes on in the next tick: a tick costs a few normal ones.
+/// The same among colliders. The contraction continues in the next tick, so no tick costs much more
+/// than a normal one.
 const MAX_CONTRACTION_ROUNDS_AMONG_COLLIDERS: u32 = 100;
 
-/// The first round that pushes triangles out of colliders too. Before, particles are enough to see
-/// whether the limit can hold; where it cannot, the cloth may stay where the last round leaves it.
+/// The first round that pushes triangles out of colliders too. Most cloth satisfies the limit before.
+/// The rest may keep the positions of the last round, so these must be outside colliders.
 const FIRST_SURFACE_ROUND: u32 = 16;
 
 /// The rounding margin, as a share of `max_stretch`: the solver aims at a limit below the
@@ -247,17 +249,17 @@ fn is_held_apart(world: &World, limit: f32) -> bool {
     })
 }
 
-/// Rolls back, and then pushes the cloth out of colliders. They take precedence: what they swept over
-/// cannot stay where it was. Where they then hold the cloth farther apart than the rounds left it, it
-/// goes back there, and the excess is reported. Beside surfaces with two sides it stays rolled back:
-/// cloth that is pulled through one at a pinch could not come back.
+/// Rolls back, and then pushes the cloth out of colliders, which take precedence. If that makes the
+/// largest excess grow, restores the positions from before; the excess is reported.
+///
+/// Beside two-sided surfaces it always rolls back: the restored cloth may be pinched between two
+/// colliders, and cloth on the wrong side of a two-sided surface stays there.
 fn roll_back_unless_worse(world: &mut World, limit: f32) {
-    let is_two_sided = |body: &ColliderBody| {
-        let shape = body.collision_shape();
-        body.desc.solid == 0.0 && matches!(shape, Some(CollisionShape::TriangleSurface(..)))
-    };
-    let can_return = !world.colliders.iter().any(|body| is_two_sided(body));
-    let excess = if can_return { largest_excess(world, limit) } else { 0.0 };
+    let is_two_sided =
+        |body: &ColliderBody| body.desc.shape == Shape::Mesh && !body.is_solid_mesh();
+    let bodies = || world.colliders.iter();
+    let can_restore = bodies().next().is_some() && !bodies().any(|body| is_two_sided(body));
+    let excess = if can_restore { largest_excess(world, limit) } else { 0.0 };
     if excess > 0.0 {
         world.scratch.rollback.before.copy_from(&world.particles.x);
     }

@@ -87,13 +87,13 @@ pub struct MuslinColliderDesc {
     pub indices: *const u32,
     /// Heightfield: `columns` * `rows` heights [m], row by row along x.
     pub heights: *const f32,
-    /// Mesh: depth from which it pushes out particles that are inside [m]. Default 0: both sides of its
-    /// triangles are outside. Below 1e6.
+    /// Mesh: largest depth from which particles inside are pushed out [m]. Default 0: both sides of its
+    /// triangles are outside. At least 0 and below 1e6.
     ///
     /// Above 0 the mesh must be closed and consistently wound: every edge in two triangles, once in
-    /// each direction. Normals may point inward or outward. Particles come out towards the nearest
-    /// place of the surface at 0.05 m/s; deeper ones stay. It costs a search per particle near the mesh
-    /// in every tick.
+    /// each direction. Normals may point inward or outward. Particles move towards the closest point of
+    /// the surface at 0.05 m/s. Each tick makes one closest-point query per particle in the bounds of
+    /// the mesh.
     pub solid: f32,
     /// Not used. Default 0.
     pub reserved: u32,

@@ -110,7 +110,7 @@ class Colliders(ClothBase):
         `tangential_restitution` is the share of the tangential velocity that remains after each
         substep in contact, in addition to Coulomb friction.
 
-        `solid` is the depth from which a mesh pushes out particles that are inside [m]; 0: both
+        `solid` is the largest depth from which a mesh pushes out particles inside it [m]; 0: both
         sides of its triangles are outside. Above 0 the mesh must be closed and consistently wound.
 
         Raises `Error` for an invalid field, and if there are 1024 colliders already.
