@@ -1,6 +1,7 @@
 // Grabs, attachments and colliders of a cloth, and the descriptor of a collider.
 
 import type { Quat, QuatLike, Vec3, Vec3Like } from "./check.js";
+import type { Shape } from "./fields.js";
 
 /**
  * A particle that a pointer holds, made by `cloth.grabRay()` or `cloth.grabParticle()`.
