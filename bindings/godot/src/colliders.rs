@@ -1,0 +1,226 @@
+//! The colliders of a cloth: the collision shapes that it follows.
+//!
+//! ```text
+//! group, paths, children ─▶ bodies: node, shape, handle ─▶ Cloth::{add, move, remove}_collider
+//! ```
+//! Reads the scene tree; writes the colliders of the cloth in each physics tick.
+//! Invariant: a node that is disabled, out of the tree or refused has no collider.
+
+use crate::convert::Placement;
+use crate::node::MuslinCloth3D;
+use crate::refusal::{Refusal, Result};
+use crate::shapes::PlacedShape;
+use godot::builtin::NodePath;
+use godot::classes::{CollisionShape3D, Node, PhysicsBody3D, RigidBody3D, StaticBody3D};
+use godot::obj::{Gd, InstanceId, WithBaseField};
+use muslin::glam::{Quat, Vec3};
+use muslin::{Cloth, Collider};
+
+/// The bodies, and what has to be read again.
+pub struct Colliders {
+    bodies: Vec<Body>,
+    /// Whether the nodes are to be searched.
+    nodes_are_old: bool,
+    /// Whether the shapes are to be converted.
+    shapes_are_old: bool,
+}
+
+impl Default for Colliders {
+    fn default() -> Self {
+        Self { bodies: Vec::new(), nodes_are_old: true, shapes_are_old: true }
+    }
+}
+
+/// A collision shape, and the collider that stands for it.
+struct Body {
+    node: Gd<CollisionShape3D>,
+    id: InstanceId,
+    collider: Option<Follower>,
+    /// Whether the shape was refused as it is.
+    is_refused: bool,
+}
+
+/// A collider in the cloth.
+struct Follower {
+    handle: Collider,
+    shape: InstanceId,
+    offset: Vec3,
+    turn: Quat,
+    placement: Placement,
+}
+
+impl Colliders {
+    /// Forgets all colliders: the cloth is another one.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Searches the nodes again in the next tick.
+    pub fn find_nodes_again(&mut self) {
+        self.nodes_are_old = true;
+    }
+
+    /// Searches the nodes and converts all shapes again in the next tick.
+    pub fn read_again(&mut self) {
+        (self.nodes_are_old, self.shapes_are_old) = (true, true);
+    }
+
+    /// The colliders of the cloth.
+    pub fn handles(&self) -> impl Iterator<Item = Collider> + '_ {
+        self.bodies.iter().filter_map(|body| body.collider.as_ref()).map(|c| c.handle)
+    }
+}
+
+impl MuslinCloth3D {
+    /// Brings the colliders of the cloth to the collision shapes of the scene.
+    ///
+    /// # Errors
+    /// Names the first node whose shape cannot be simulated, and the rule; all others are followed.
+    pub(crate) fn follow_colliders(&mut self, cloth: &mut Cloth) -> Result<()> {
+        let mut colliders = core::mem::take(&mut self.colliders);
+        let mut refused = Ok(());
+        if colliders.nodes_are_old {
+            match self.collision_shapes() {
+                Ok(nodes) => colliders.keep(nodes, cloth, self),
+                Err(refusal) => refused = Err(refusal),
+            }
+            colliders.nodes_are_old = false;
+        }
+        let shapes_are_old = core::mem::replace(&mut colliders.shapes_are_old, false);
+        for body in &mut colliders.bodies {
+            if shapes_are_old {
+                body.remove(cloth);
+                body.is_refused = false;
+            }
+            if let Err(refusal) = body.follow(cloth, self) {
+                refused = refused.and(Err(refusal));
+            }
+        }
+        self.colliders = colliders;
+        refused
+    }
+
+    /// Finds the nodes: those of the group, those of the paths, and those below the cloth.
+    fn collision_shapes(&self) -> Result<Vec<Gd<CollisionShape3D>>> {
+        let this = self.to_gd().upcast::<Node>();
+        let mut roots = vec![this.clone()];
+        if !self.collider_group.is_empty() {
+            roots.extend(this.get_tree().get_nodes_in_group(&self.collider_group).iter_shared());
+        }
+        for (i, path) in self.collider_nodes.iter_shared().enumerate() {
+            roots.push(node_at(&this, &path, i)?);
+        }
+        let mut found: Vec<Gd<CollisionShape3D>> = Vec::new();
+        for root in roots {
+            let below = root.find_children_ex("*").type_("CollisionShape3D").owned(false).done();
+            let below = below.iter_shared().filter_map(|node| node.try_cast().ok());
+            found.extend(root.try_cast().ok().into_iter().chain(below));
+        }
+        let mut known = std::collections::HashSet::new();
+        found.retain(|node| known.insert(node.instance_id()));
+        Ok(found)
+    }
+}
+
+fn node_at(this: &Gd<Node>, path: &NodePath, i: usize) -> Result<Gd<Node>> {
+    let must = format!("`collider_nodes[{i}]` must name a node, but there is none at \"{path}\"");
+    this.get_node_or_null(path).ok_or_else(|| Refusal::new(must))
+}
+
+impl Colliders {
+    /// Keeps the bodies of `nodes`, removes the others and adds new ones, in the order of `nodes`.
+    fn keep(&mut self, nodes: Vec<Gd<CollisionShape3D>>, cloth: &mut Cloth, owner: &MuslinCloth3D) {
+        let mut old: std::collections::HashMap<_, _> =
+            self.bodies.drain(..).map(|body| (body.id, body)).collect();
+        for node in nodes {
+            let id = node.instance_id();
+            let new = Body { node, id, collider: None, is_refused: false };
+            self.bodies.push(old.remove(&id).unwrap_or(new));
+        }
+        old.into_values().for_each(|mut body| body.remove(cloth));
+        for body in &self.bodies {
+            if let Some(mut shape) = body.node.get_shape() {
+                let changed = owner.to_gd().callable("refresh_colliders");
+                if !shape.is_connected("changed", &changed) {
+                    shape.connect("changed", &changed);
+                }
+            }
+        }
+    }
+}
+
+impl Body {
+    fn remove(&mut self, cloth: &mut Cloth) {
+        if let Some(collider) = self.collider.take() {
+            cloth.remove_collider(collider.handle).ok();
+        }
+    }
+
+    /// Adds, moves or removes the collider.
+    fn follow(&mut self, cloth: &mut Cloth, owner: &MuslinCloth3D) -> Result<()> {
+        let is_there = self.node.is_instance_valid() && self.node.is_inside_tree();
+        let shape = if is_there && !self.node.is_disabled() { self.node.get_shape() } else { None };
+        let Some(shape) = shape else {
+            self.remove(cloth);
+            return Ok(());
+        };
+        let name = |refusal: Refusal, node: &Gd<CollisionShape3D>| {
+            refusal.of(&format!("collider {}", node.get_path()))
+        };
+        let must = "`transform` must be finite, with a scale that is not 0";
+        let placement = Placement::new(self.node.get_global_transform())
+            .ok_or_else(|| name(Refusal::new(must), &self.node))?;
+        if let Some(collider) = &mut self.collider {
+            let is_same = collider.shape == shape.instance_id();
+            if is_same && collider.placement == placement {
+                return Ok(());
+            }
+            if is_same && collider.placement.has_shape_of(&placement) {
+                let (position, rotation) =
+                    PlacedShape::pose(collider.offset, collider.turn, &placement);
+                collider.placement = placement;
+                let moved = cloth.move_collider(collider.handle, position, rotation);
+                return moved.map_err(|error| name(Refusal::new(error.to_string()), &self.node));
+            }
+            self.remove(cloth);
+            self.is_refused = false;
+        }
+        if self.is_refused {
+            return Ok(());
+        }
+        let added = add(cloth, &self.node, &shape, placement, owner);
+        self.is_refused = added.is_err();
+        self.collider = Some(added.map_err(|refusal| name(refusal, &self.node))?);
+        Ok(())
+    }
+}
+
+fn add(
+    cloth: &mut Cloth,
+    node: &Gd<CollisionShape3D>,
+    shape: &Gd<godot::classes::Shape3D>,
+    placement: Placement,
+    owner: &MuslinCloth3D,
+) -> Result<Follower> {
+    let PlacedShape { mut desc, offset, turn } = PlacedShape::new(shape, &placement)?;
+    (desc.position, desc.rotation) = PlacedShape::pose(offset, turn, &placement);
+    desc.friction = friction(node).unwrap_or(owner.collider_friction);
+    desc.thickness = owner.collider_gap;
+    let handle = cloth.add_collider(&desc).map_err(|error| {
+        let sentence = error.to_string();
+        let sentence = sentence.replacen("`collider.friction", "`collider_friction", 1);
+        let sentence = sentence.replacen("`collider.thickness", "`collider_gap", 1);
+        Refusal::new(sentence.replacen("`collider.", "`shape.", 1))
+    })?;
+    Ok(Follower { handle, shape: shape.instance_id(), offset, turn, placement })
+}
+
+/// Returns the friction of the physics material of the body that the shape belongs to.
+fn friction(node: &Gd<CollisionShape3D>) -> Option<f32> {
+    let body = node.get_parent()?.try_cast::<PhysicsBody3D>().ok()?;
+    let material = match body.try_cast::<StaticBody3D>() {
+        Ok(body) => body.get_physics_material_override(),
+        Err(body) => body.try_cast::<RigidBody3D>().ok()?.get_physics_material_override(),
+    };
+    material.map(|material| material.get_friction())
+}
