@@ -15,11 +15,13 @@ mod c_tests;
 mod clients;
 mod demo;
 mod dist;
+mod engine_download;
 mod engines;
 mod examples;
 mod failure;
 mod files;
 mod fuzz;
+mod godot;
 mod js;
 mod js_tests;
 mod lanes;
@@ -60,7 +62,7 @@ cargo xtask demo --web              build the demo as a page and serve it
 cargo xtask manual-pictures         draw the pictures of docs/manual with the demo
 cargo xtask check                   format, lints of the library, unit tests and closed forms
 cargo xtask test [STEP…]            all default steps, or the steps that are named
-  --all                             all steps, with dist, site, engines and fuzz-long
+  --all                             all steps, with dist, site, engines, godot and fuzz-long
 cargo xtask bits                    simulate golden scenes on every platform, compare the hashes
   --bless                           write golden.txt from this machine instead
 cargo xtask web                     build the demo's page into dist/web
@@ -73,6 +75,7 @@ cargo xtask package                 pack the C library as users install it, into
 cargo xtask dist [TARGET…]          build, pack and try the C library for all platforms, or for those
                                     that are named, into dist/release
 cargo xtask bevy                    build the example in Bevy and draw its picture
+cargo xtask godot                   build the extension for Godot into bindings/godot/project
 cargo xtask examples                serve the example pages of the npm package
 cargo xtask site                    build the site with manual, references and playground into dist/site
   --base /PATH/                     for this folder of a host
@@ -125,6 +128,7 @@ fn run(args: &[String]) -> Result {
         "package" => alone(chore, rest, package::build),
         "dist" => dist::run(rest),
         "bevy" => alone(chore, rest, engines::bevy),
+        "godot" => alone(chore, rest, godot::build),
         "examples" => alone(chore, rest, examples::serve),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");

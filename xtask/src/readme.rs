@@ -7,6 +7,7 @@
 //! | `c`, `cpp` | compiled, linked both ways, run, and run under valgrind |
 //! | `js` | run in node, with the npm package installed |
 //! | `py` | run with Python 3, with the wheel of the Python package installed |
+//! | `gdscript` | step `godot` runs those of the page on Godot |
 //! | `sh` | each command is run, or named as a step that runs it |
 //! | `cmake` | each line is part of the CMake project that step `package` builds |
 //! | `text` | not code |
@@ -14,7 +15,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
-use crate::{bench, c, c_tests, demo, files, js, npm, python, setup, shell};
+use crate::{bench, c, c_tests, demo, files, godot, js, npm, python, setup, shell};
 
 /// A fenced block of code.
 #[derive(Debug, PartialEq)]
@@ -84,6 +85,13 @@ fn pages() -> Result<Vec<String>> {
     Ok(pages)
 }
 
+/// The blocks of a page in one language: the line of each and its text.
+pub fn blocks_in(page: &str, language: &str) -> Result<Vec<(usize, String)>> {
+    let blocks = blocks_of(page, &files::read(&files::root().join(page))?)?;
+    let is_wanted = |block: &Block| block.language == language;
+    Ok(blocks.into_iter().filter(is_wanted).map(|block| (block.line, block.text)).collect())
+}
+
 fn scratch() -> PathBuf {
     files::target().join("readme")
 }
@@ -137,6 +145,7 @@ impl Block {
         let name = format!("{page}-line-{}", self.line);
         match self.language.as_str() {
             "rust" | "text" => Ok(()),
+            "gdscript" if self.page == godot::PAGE => Ok(()),
             "c" | "cpp" => {
                 let source = scratch().join(format!("{name}.{}", self.language));
                 files::write(&source, &self.text)?;
@@ -161,7 +170,8 @@ impl Block {
             }),
             other => Err(Failure::new(format!(
                 "no test runs blocks of {other:?}; rust, c, cpp, js, py, cmake and sh are tested, \
-                 text is not code"
+                 gdscript on {}, text is not code",
+                godot::PAGE
             ))),
         }
     }
@@ -227,6 +237,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["python"] => Action::Step("python"),
         ["package", "--js"] => Action::Step("clients"),
         ["dist", ..] => Action::Step("dist"),
+        ["godot"] => Action::Step("godot"),
         ["examples"] => Action::Step("examples"),
         ["web" | "setup" | "manual-pictures"] => Action::Chore(rest.to_vec()),
         ["verify", "--short"] => Action::Step("verify"),
@@ -308,6 +319,7 @@ mod tests {
         assert_eq!(action("cargo xtask bench node", is_step), Action::Bench(vec!["node"]));
         assert_eq!(action("cargo xtask verify --short", is_step), Action::Step("verify"));
         assert_eq!(action("cargo xtask dist aarch64-apple-ios", is_step), Action::Step("dist"));
+        assert_eq!(action("cargo xtask godot", is_step), Action::Step("godot"));
         assert_eq!(action("cargo xtask fly", is_step), Action::Unknown);
         assert_eq!(action("cc -Iinclude a.c", is_step), Action::Shell);
     }

@@ -22,10 +22,11 @@ const PARALLEL: [&str; 2] = ["--features", "muslin/parallel,muslin-golden/parall
 pub fn check_format() -> Result {
     setup::ensure_component("fmt", "rustfmt")?;
     shell::run(&mut shell::cargo(&["fmt", "--all", "--check"]))?;
-    // The example in Bevy is a workspace of its own, so that nobody else resolves an engine's
-    // crates.
-    let bevy = "--manifest-path=bindings/bevy/Cargo.toml";
-    shell::run(&mut shell::cargo(&["fmt", bevy, "--check"]))
+    // What is built for engines is a workspace of its own, so that nobody else resolves their crates.
+    ["bevy", "godot"].iter().try_for_each(|engine| {
+        let manifest = format!("--manifest-path=bindings/{engine}/Cargo.toml");
+        shell::run(&mut shell::cargo(&["fmt", &manifest, "--check"]))
+    })
 }
 
 /// Fails where clippy warns (in all crates, with threads, and in what is compiled for pages), and

@@ -3,8 +3,8 @@
 use crate::failure::Result;
 use crate::setup::{self, Need};
 use crate::{
-    bits, c_tests, clients, demo, dist, engines, examples, fuzz, js_tests, package, python, readme,
-    rust, site, verify, web,
+    bits, c_tests, clients, demo, dist, engines, examples, fuzz, godot, js_tests, package, python,
+    readme, rust, site, verify, web,
 };
 
 /// One part of the tests.
@@ -46,11 +46,13 @@ pub enum Output {
     PythonPackage,
     /// `target/fuzz`.
     Fuzzer,
+    /// `target/godot`.
+    GodotExtension,
 }
 
 use Output::{
-    CLibrary, CPackage, DebugBuild, DemoPage, Fuzzer, NpmPackage, PythonPackage, ReleasePackages,
-    TestBuild,
+    CLibrary, CPackage, DebugBuild, DemoPage, Fuzzer, GodotExtension, NpmPackage, PythonPackage,
+    ReleasePackages, TestBuild,
 };
 
 /// All steps. Those that take longest come early, so that the last ones end together.
@@ -234,6 +236,15 @@ pub const STEPS: &[Step] = &[
         reads: &[],
         is_default: false,
         run: engines::test,
+    },
+    Step {
+        name: "godot",
+        about: "the extension for Godot, its project and the scripts of its page, in Godot",
+        needs: godot::NEEDS,
+        writes: &[GodotExtension],
+        reads: &[],
+        is_default: false,
+        run: godot::test,
     },
     Step {
         name: "fuzz-long",

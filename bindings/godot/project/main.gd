@@ -1,5 +1,5 @@
 extends Node3D
-## A ball swings through a curtain. Drag a cloth with the left mouse button: the sheet on the right
+## A ball swings into a curtain. Drag a cloth with the left mouse button: the sheet on the right
 ## tears. R brings both back.
 ##
 ## With `-- --shot FILE.png` a script drags the sheet, and the picture of tick 150 is saved.
@@ -28,7 +28,7 @@ func _ready() -> void:
 func _physics_process(_delta: float) -> void:
 	ticks += 1
 	var seconds := ticks / float(Engine.physics_ticks_per_second)
-	ball.position.z = -0.75 * cos(2.0 * seconds)
+	ball.position.z = 0.6 - 0.5 * (1.0 - cos(1.25 * seconds))
 	if shot != "":
 		play_script()
 
@@ -80,11 +80,11 @@ func release() -> void:
 
 ## Drags the sheet until it tears, and saves the picture.
 func play_script() -> void:
-	var start := camera.unproject_position($Sheet.global_position + Vector3(0.0, -0.65, 0.0))
+	var start := camera.unproject_position($Sheet.global_position + Vector3(-0.5, -0.3, 0.0))
 	if ticks == 30:
 		press(start)
 	elif ticks > 30:
-		drag(start + Vector2(2.5, 1.8) * (ticks - 30))
+		drag(start + Vector2(2.5, 2.0) * (ticks - 30))
 	if ticks == SHOT_TICK:
 		await RenderingServer.frame_post_draw
 		var error := get_viewport().get_texture().get_image().save_png(shot)

@@ -31,6 +31,9 @@ fn columns(basis: Basis) -> [Vector3; 3] {
     [basis.col_a(), basis.col_b(), basis.col_c()]
 }
 
+/// Least scale along an axis that is not zero.
+const LEAST_SCALE: f32 = 1.0e-6;
+
 /// A transform as a rigid pose, after what it does to shapes: scale, mirroring, shear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
@@ -46,8 +49,10 @@ impl Placement {
     /// Splits a transform; `None` if it is not finite or flattens space.
     pub fn new(transform: Transform3D) -> Option<Self> {
         let basis = transform.basis;
-        let size = basis.determinant();
-        if !(transform.is_finite() && size.is_normal()) {
+        let lengths = columns(basis).map(|axis| axis.length());
+        let volume: f32 = lengths.iter().product();
+        let is_flat = basis.determinant().abs() < LEAST_SCALE * volume;
+        if !transform.is_finite() || is_flat || lengths.iter().any(|l| *l < LEAST_SCALE) {
             return None;
         }
         let right = basis.orthonormalized();

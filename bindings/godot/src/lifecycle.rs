@@ -48,22 +48,21 @@ impl MuslinCloth3D {
 
     /// Makes the cloth when the node is ready.
     pub(crate) fn start(&mut self) {
+        self.base_mut().set_process_internal(true);
+        if is_editor() {
+            return;
+        }
         let tree = self.base().get_tree();
         let this = self.to_gd();
         tree.signals().tree_changed().connect_other(&this, |node: &mut Self| {
             node.colliders.find_nodes_again();
         });
         let mut base = self.base_mut();
-        base.set_process_internal(true);
-        if !is_editor() {
-            base.set_physics_process_internal(true);
-            // The cloth itself is interpolated between ticks, from the poses of ticks.
-            base.set_physics_interpolation_mode(PhysicsInterpolationMode::OFF);
-        }
+        base.set_physics_process_internal(true);
+        // The cloth itself is interpolated between ticks, from the poses of ticks.
+        base.set_physics_interpolation_mode(PhysicsInterpolationMode::OFF);
         drop(base);
-        if !is_editor() {
-            self.rebuild();
-        }
+        self.rebuild();
     }
 
     /// Advances the cloth by the time of a physics tick.
@@ -229,9 +228,11 @@ impl MuslinCloth3D {
     /// Draws the cloth anew in the editor when its mesh changes.
     fn watch_meshes(&mut self) {
         let source = self.mesh_source.as_ref().and_then(|node| node.get_mesh());
-        let this = self.to_gd();
-        for mesh in self.mesh.iter().chain(&source) {
-            mesh.signals().changed().connect_other(&this, |node: &mut Self| node.preview = None);
+        let changed = self.to_gd().callable("rebuild");
+        for mut mesh in self.mesh.clone().into_iter().chain(source) {
+            if !mesh.is_connected("changed", &changed) {
+                mesh.connect("changed", &changed);
+            }
         }
     }
 

@@ -320,7 +320,10 @@ impl MuslinCloth3D {
     }
 
     fn restored(&mut self, bytes: &[u8]) -> Result<()> {
-        let bad = |why: &str| Refusal::new(format!("`bytes` must hold a state of `save`: {why}"));
+        let bad = |why: &str| {
+            let why = why.trim_start_matches("`buffer` must hold a saved cloth: ");
+            Refusal::new(format!("`bytes` must hold a state of `save`: {why}"))
+        };
         let size = bytes.len().checked_sub(POSE_BYTES).ok_or_else(|| bad("they are too short"))?;
         let (state, pose) = bytes.split_at(size);
         let mut cloth = Cloth::restore(state).map_err(|error| bad(&error.to_string()))?;

@@ -229,7 +229,7 @@ pub struct MuslinCloth3D {
     #[export(range = (0.0, 1.0, 0.01))]
     pub(crate) wind_gust: f32,
     /// Amplitude of changes of direction, 0 to pi.
-    #[export(range = (0.0, 3.14, 0.01, suffix = "rad"))]
+    #[export(range = (0.0, std::f64::consts::PI, 0.01, suffix = "rad"))]
     pub(crate) wind_wander: f32,
     /// Amplitude of turbulence in space, as a share of the speed, 0 to 1.
     #[export(range = (0.0, 1.0, 0.01))]
