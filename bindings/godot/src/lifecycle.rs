@@ -147,7 +147,7 @@ impl MuslinCloth3D {
             return;
         }
         let from_world = to_affine(transform.affine_inverse());
-        let is_new = self.surface.update(cloth, from_world, blend);
+        let is_new = self.surface.update(cloth, from_world, blend, self.tangents);
         if is_new {
             let material = self.source_material();
             self.surface.set_material(material);

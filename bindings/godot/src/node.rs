@@ -262,6 +262,11 @@ pub struct MuslinCloth3D {
     #[init(val = -1.0)]
     pub(crate) collider_gap: f32,
 
+    /// Whether the drawn surface has tangents, which a material with a normal map needs.
+    #[export_group(name = "Drawing")]
+    #[export]
+    pub(crate) tangents: bool,
+
     /// The cloth; none before the node is ready, and if the properties give none.
     pub(crate) cloth: Option<Cloth>,
     /// The parameters that the cloth was given last, also if it refused them.

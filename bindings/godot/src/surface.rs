@@ -10,8 +10,8 @@
 
 use core::cell::Cell;
 use godot::builtin::{
-    Aabb, PackedByteArray, PackedInt32Array, PackedVector2Array, PackedVector3Array, Rid, VarArray,
-    Vector2, Vector3,
+    Aabb, PackedByteArray, PackedFloat32Array, PackedInt32Array, PackedVector2Array,
+    PackedVector3Array, Rid, VarArray, Vector2, Vector3,
 };
 use godot::classes::base_material_3d::CullMode;
 use godot::classes::mesh::{ArrayFormat, ArrayType, PrimitiveType};
@@ -28,12 +28,17 @@ pub struct Surface {
     /// The vertex buffer, as it is sent.
     bytes: PackedByteArray,
     layout: Layout,
-    /// Vertices and topology revision of the surface; none if the cloth is another one.
-    shown: Option<(usize, u32)>,
+    /// Tangents as Muslin writes them, eight bytes each; empty if the surface has none.
+    tangents: Vec<u8>,
+    /// Vertices and topology revision of the surface, and whether it has tangents; none if the cloth
+    /// is another one.
+    shown: Option<(usize, u32, bool)>,
     bounds: Aabb,
+    /// The material of a cloth that has no other.
+    both_sides: Option<Gd<Material>>,
 }
 
-/// Where the vertex buffer holds positions and normals.
+/// Where the vertex buffer holds positions and normals; a tangent is behind each normal.
 #[derive(Clone, Copy, Default)]
 struct Layout {
     position_stride: u32,
@@ -72,20 +77,29 @@ impl Surface {
 
     /// Sets the material; without one, the cloth gets a white one that shows both sides.
     pub fn set_material(&mut self, material: Option<Gd<Material>>) {
-        let Some(mesh) = &mut self.mesh else { return };
-        let material = material.unwrap_or_else(|| {
+        let both_sides = self.both_sides.get_or_insert_with(|| {
             let mut both_sides = StandardMaterial3D::new_gd();
             both_sides.set_cull_mode(CullMode::DISABLED);
             both_sides.upcast()
         });
-        mesh.surface_set_material(0, &material);
+        if let Some(mesh) = &mut self.mesh {
+            mesh.surface_set_material(0, material.as_ref().unwrap_or(both_sides));
+        }
     }
 
-    /// Draws the cloth at `blend` between its last two ticks, in the space of the node. Returns
-    /// whether the mesh has a new surface, which has no material yet.
-    pub fn update(&mut self, cloth: &mut Cloth, from_world: Affine3, blend: f32) -> bool {
+    /// Draws the cloth at `blend` between its last two ticks, in the space of the node, with
+    /// tangents if so wanted. Returns whether the mesh has a new surface, which has no material yet.
+    pub fn update(
+        &mut self,
+        cloth: &mut Cloth,
+        from_world: Affine3,
+        blend: f32,
+        with_tangents: bool,
+    ) -> bool {
         let desc = WriteDesc { blend, transform: from_world, ..WriteDesc::default() };
-        let now = (cloth.positions().len(), cloth.topology_revision());
+        let count = cloth.positions().len();
+        self.tangents.resize(if with_tangents { 8 * count } else { 0 }, 0);
+        let now = (count, cloth.topology_revision(), with_tangents);
         let is_new = self.shown != Some(now);
         if is_new {
             self.make(cloth, &desc);
@@ -110,6 +124,14 @@ impl Surface {
             stream(Attribute::Normal, VertexFormat::F32, 12, cells(normals.as_mut_slice())),
         ];
         write(cloth, &streams, desc);
+        let mut tangents = PackedFloat32Array::new();
+        if !self.tangents.is_empty() {
+            tangents.resize(4 * count);
+            let cells = cells(tangents.as_mut_slice());
+            write(cloth, &[stream(Attribute::Tangent, VertexFormat::F32, 16, cells)], desc);
+            // Godot's bitangent points up in the texture, where v is smaller.
+            tangents.as_mut_slice().chunks_exact_mut(4).for_each(|t| t[3] = -t[3]);
+        }
         self.bounds = bounds(positions.as_slice().iter().copied());
         let uvs = cloth.uvs().iter().map(|uv| Vector2::new(uv.x, uv.y));
         let triangles = cloth.indices().chunks_exact(3);
@@ -121,6 +143,9 @@ impl Surface {
         };
         set(ArrayType::VERTEX, positions.to_variant());
         set(ArrayType::NORMAL, normals.to_variant());
+        if !tangents.is_empty() {
+            set(ArrayType::TANGENT, tangents.to_variant());
+        }
         set(ArrayType::TEX_UV, uvs.collect::<PackedVector2Array>().to_variant());
         set(ArrayType::INDEX, indices.collect::<PackedInt32Array>().to_variant());
         let mesh = self.mesh.get_or_insert_with(ArrayMesh::new_gd);
@@ -144,10 +169,16 @@ impl Surface {
             stream(normal, octahedral, normal_stride, &cells[normal_offset..]),
         ];
         write(cloth, &streams, desc);
-        // Muslin's 16-bit numbers are signed, from −32767 to 32767; Godot's are from 0 to 65535.
-        for normal in bytes[normal_offset..].chunks_mut(normal_stride as usize) {
-            normal[1] ^= 0x80;
-            normal[3] ^= 0x80;
+        for normal in bytes[normal_offset..].chunks_exact_mut(normal_stride as usize) {
+            encode_normal(normal);
+        }
+        if !self.tangents.is_empty() {
+            let cells = Cell::from_mut(&mut self.tangents[..]).as_slice_of_cells();
+            write(cloth, &[stream(Attribute::Tangent, octahedral, 8, cells)], desc);
+            let normals = bytes[normal_offset..].chunks_exact_mut(normal_stride as usize);
+            for (to, tangent) in normals.zip(self.tangents.chunks_exact(8)) {
+                to[4..].copy_from_slice(&encoded_tangent(tangent));
+            }
         }
         let number = |at: &[u8]| f32::from_ne_bytes([at[0], at[1], at[2], at[3]]);
         let points = bytes[..normal_offset].chunks_exact(position_stride as usize);
@@ -177,6 +208,29 @@ impl Layout {
     }
 }
 
+/// Turns a normal of Muslin, two numbers from −32767 to 32767, into one of Godot: from 0 to 65535.
+fn encode_normal(normal: &mut [u8]) {
+    for number in normal[..4].chunks_exact_mut(2) {
+        number.copy_from_slice(&unsigned(number).to_ne_bytes());
+    }
+}
+
+/// The number from 0 to 65535 for one from −32767 to 32767.
+fn unsigned(number: &[u8]) -> u16 {
+    u16::from_ne_bytes([number[0], number[1]]) ^ 0x8000
+}
+
+/// Turns a tangent of Muslin, octahedral u v and handedness, into one of Godot, where the upper or
+/// the lower half of the range of v tells the handedness, which is the opposite one.
+fn encoded_tangent(tangent: &[u8]) -> [u8; 4] {
+    let (u, v) = (unsigned(tangent), unsigned(&tangent[2..]));
+    let upper = 0x8000 + v.max(2) / 2;
+    let is_mirrored = i16::from_ne_bytes([tangent[4], tangent[5]]) > 0;
+    let v = if is_mirrored { u16::MAX - upper } else { upper };
+    let ([a, b], [c, d]) = (u.to_ne_bytes(), v.to_ne_bytes());
+    [a, b, c, d]
+}
+
 /// The box around points.
 fn bounds(points: impl Iterator<Item = Vector3>) -> Aabb {
     let empty = (Vector3::splat(f32::INFINITY), Vector3::splat(f32::NEG_INFINITY));
@@ -193,12 +247,17 @@ fn stream(
     Stream { attribute, format, stride, bytes }
 }
 
-/// The bytes of vectors.
-fn cells(vectors: &mut [Vector3]) -> &[Cell<u8>] {
-    let size = size_of_val(vectors);
-    // SAFETY: a `Vector3` is three floats without padding, so that its bytes may be read, and any
-    // bytes are valid floats; the borrow of `vectors` lasts as long as the cells.
-    unsafe { core::slice::from_raw_parts(vectors.as_mut_ptr().cast::<Cell<u8>>(), size) }
+/// Numbers without padding, of which any bytes are valid.
+trait Floats {}
+impl Floats for f32 {}
+impl Floats for Vector3 {}
+
+/// The bytes of numbers.
+fn cells<T: Floats>(numbers: &mut [T]) -> &[Cell<u8>] {
+    let size = size_of_val(numbers);
+    // SAFETY: floats have no padding, so that their bytes may be read, and any bytes are valid
+    // floats; the borrow of `numbers` lasts as long as the cells.
+    unsafe { core::slice::from_raw_parts(numbers.as_mut_ptr().cast::<Cell<u8>>(), size) }
 }
 
 /// Writes vertices; the streams fit the cloth, and the transform can be inverted.
@@ -213,6 +272,22 @@ mod tests {
     use super::*;
     use crate::convert::to_godot;
     use muslin::glam::Vec3;
+
+    #[test]
+    fn directions_are_encoded_over_the_whole_range() {
+        let bytes = |numbers: &[i16]| numbers.iter().flat_map(|n| n.to_ne_bytes()).collect();
+        let mut normal: Vec<u8> = bytes(&[-32767, 0]);
+        encode_normal(&mut normal);
+        assert_eq!([unsigned(&normal) ^ 0x8000, unsigned(&normal[2..]) ^ 0x8000], [1, 0x8000]);
+        let numbers = |tangent: [i16; 4]| {
+            let bytes: Vec<u8> = bytes(&tangent);
+            let [a, b, c, d] = encoded_tangent(&bytes);
+            [u16::from_ne_bytes([a, b]), u16::from_ne_bytes([c, d])]
+        };
+        assert_eq!(numbers([32767, 32767, -32767, 0]), [65535, 65535]);
+        assert_eq!(numbers([32767, 32767, 32767, 0]), [65535, 0]);
+        assert_eq!(numbers([0, -32767, -32767, 0]), [0x8000, 0x8001]);
+    }
 
     #[test]
     fn the_box_holds_all_points_and_none_is_empty() {

@@ -560,7 +560,7 @@ func drawn_mesh_is_the_cloth() -> void:
 	var cloth := add_cloth({
 		columns = 15, rows = 15, width = 1.0, height = 1.0, tearing = true, tear_stretch = 1.2,
 		position = Vector3(0.1, 0.2, -0.3), rotation = Vector3(0.2, 0.4, 0), scale = Vector3(1.5, 1.5, 1.5),
-		wind_velocity = Vector3(0, 0, 4),
+		wind_velocity = Vector3(0, 0, 4), tangents = true,
 	})
 	for part in 3:
 		await ticks(20)
@@ -591,5 +591,17 @@ func drawn_mesh_is_the_cloth() -> void:
 		for i in points.size():
 			least = minf(least, sums[i].normalized().dot(normals[i]))
 		check(least > 0.999, "drawn normals belong to the drawn triangles: %f" % least)
+		var tool := SurfaceTool.new()
+		tool.create_from(cloth.get_drawn_mesh(), 0)
+		tool.generate_tangents()
+		var expected: PackedFloat32Array = tool.commit_to_arrays()[Mesh.ARRAY_TANGENT]
+		var tangents: PackedFloat32Array = arrays[Mesh.ARRAY_TANGENT]
+		var farthest := 1.0
+		for i in points.size():
+			var drawn := Vector3(tangents[4 * i], tangents[4 * i + 1], tangents[4 * i + 2])
+			var usual := Vector3(expected[4 * i], expected[4 * i + 1], expected[4 * i + 2])
+			farthest = minf(farthest, drawn.dot(usual))
+			check(tangents[4 * i + 3] == expected[4 * i + 3], "the handedness of vertex %d" % i)
+		check(farthest > 0.95, "drawn tangents are like those of Godot: %f" % farthest)
 		var box := cloth.get_aabb().grow(1e-4)
 		check(box.has_point(points[0]) and box.has_point(points[-1]), "the box holds the cloth")
