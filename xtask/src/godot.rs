@@ -11,14 +11,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::failure::{During, Failure, Result};
+use crate::readme::{self, GODOT_PAGE};
 use crate::setup::{self, Need};
-use crate::{engine_download, files, picture, readme, shell};
+use crate::{engine_download, files, picture, shell};
 
 /// What the tests need beside Rust and Godot.
 pub const NEEDS: &[&Need] = &[&setup::XVFB];
-
-/// The page whose blocks of GDScript the tests run.
-pub const PAGE: &str = "docs/manual/godot.md";
 
 /// The environment variable with the path of Godot.
 const VARIABLE: &str = "GODOT";
@@ -106,9 +104,9 @@ fn copy(from: &Path, to: &Path) -> Result {
 /// Writes each block of GDScript of the manual as a script, which the tests run.
 fn write_blocks(folder: &Path) -> Result {
     files::create_dir(folder)?;
-    let blocks = readme::blocks_in(PAGE, "gdscript")?;
+    let blocks = readme::blocks_in(GODOT_PAGE, "gdscript")?;
     if blocks.is_empty() {
-        return Err(Failure::new(format!("{PAGE} has no block of GDScript")));
+        return Err(Failure::new(format!("{GODOT_PAGE} has no block of GDScript")));
     }
     for (line, text) in blocks {
         files::write(&folder.join(format!("line_{line}.gd")), &text)?;

@@ -15,7 +15,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
-use crate::{bench, c, c_tests, demo, files, godot, js, npm, python, setup, shell};
+use crate::{bench, c, c_tests, demo, files, js, npm, python, setup, shell};
+
+/// The page whose blocks of GDScript step `godot` runs.
+pub const GODOT_PAGE: &str = "docs/manual/godot.md";
 
 /// A fenced block of code.
 #[derive(Debug, PartialEq)]
@@ -145,7 +148,7 @@ impl Block {
         let name = format!("{page}-line-{}", self.line);
         match self.language.as_str() {
             "rust" | "text" => Ok(()),
-            "gdscript" if self.page == godot::PAGE => Ok(()),
+            "gdscript" if self.page == GODOT_PAGE => Ok(()),
             "c" | "cpp" => {
                 let source = scratch().join(format!("{name}.{}", self.language));
                 files::write(&source, &self.text)?;
@@ -171,7 +174,7 @@ impl Block {
             other => Err(Failure::new(format!(
                 "no test runs blocks of {other:?}; rust, c, cpp, js, py, cmake and sh are tested, \
                  gdscript on {}, text is not code",
-                godot::PAGE
+                GODOT_PAGE
             ))),
         }
     }

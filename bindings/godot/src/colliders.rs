@@ -7,14 +7,14 @@
 //! Invariant: a node that is disabled, out of the tree or refused has no collider.
 
 use crate::convert::Placement;
-use crate::node::MuslinCloth3D;
 use crate::refusal::{Refusal, Result};
 use crate::shapes::PlacedShape;
-use godot::builtin::NodePath;
-use godot::classes::{CollisionShape3D, Node, PhysicsBody3D, RigidBody3D, StaticBody3D};
-use godot::obj::{Gd, InstanceId, WithBaseField};
+use godot::builtin::Callable;
+use godot::classes::{CollisionShape3D, PhysicsBody3D, RigidBody3D, StaticBody3D};
+use godot::obj::{Gd, InstanceId};
 use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, Collider};
+use std::collections::HashMap;
 
 /// The bodies, and what has to be read again.
 pub struct Colliders {
@@ -29,6 +29,16 @@ impl Default for Colliders {
     fn default() -> Self {
         Self { bodies: Vec::new(), nodes_are_old: true, shapes_are_old: true }
     }
+}
+
+/// What colliders have in common.
+pub struct Contact {
+    /// Friction of those whose body has no physics material; −1 = that of the cloth.
+    pub friction: f32,
+    /// Gap to the cloth [m]; −1 = its thickness.
+    pub gap: f32,
+    /// What a shape calls when it changes.
+    pub changed: Callable,
 }
 
 /// A collision shape, and the collider that stands for it.
@@ -69,81 +79,52 @@ impl Colliders {
     pub fn handles(&self) -> impl Iterator<Item = Collider> + '_ {
         self.bodies.iter().filter_map(|body| body.collider.as_ref()).map(|c| c.handle)
     }
-}
 
-impl MuslinCloth3D {
-    /// Brings the colliders of the cloth to the collision shapes of the scene.
+    /// Brings the colliders of the cloth to their nodes, which `find` searches if that is due.
     ///
     /// # Errors
     /// Names the first node whose shape cannot be simulated, and the rule; all others are followed.
-    pub(crate) fn follow_colliders(&mut self, cloth: &mut Cloth) -> Result<()> {
-        let mut colliders = core::mem::take(&mut self.colliders);
+    pub fn follow(
+        &mut self,
+        cloth: &mut Cloth,
+        contact: &Contact,
+        find: impl FnOnce() -> Result<Vec<Gd<CollisionShape3D>>>,
+    ) -> Result<()> {
         let mut refused = Ok(());
-        if colliders.nodes_are_old {
-            match self.collision_shapes() {
-                Ok(nodes) => colliders.keep(nodes, cloth, self),
+        if core::mem::replace(&mut self.nodes_are_old, false) {
+            match find() {
+                Ok(nodes) => self.keep(nodes, cloth, contact),
                 Err(refusal) => refused = Err(refusal),
             }
-            colliders.nodes_are_old = false;
         }
-        let shapes_are_old = core::mem::replace(&mut colliders.shapes_are_old, false);
-        for body in &mut colliders.bodies {
+        let shapes_are_old = core::mem::replace(&mut self.shapes_are_old, false);
+        for body in &mut self.bodies {
             if shapes_are_old {
                 body.remove(cloth);
                 body.is_refused = false;
             }
-            if let Err(refusal) = body.follow(cloth, self) {
+            if let Err(refusal) = body.follow(cloth, contact) {
                 refused = refused.and(Err(refusal));
             }
         }
-        self.colliders = colliders;
         refused
     }
 
-    /// Finds the nodes: those of the group, those of the paths, and those below the cloth.
-    fn collision_shapes(&self) -> Result<Vec<Gd<CollisionShape3D>>> {
-        let this = self.to_gd().upcast::<Node>();
-        let mut roots = vec![this.clone()];
-        if !self.collider_group.is_empty() {
-            roots.extend(this.get_tree().get_nodes_in_group(&self.collider_group).iter_shared());
-        }
-        for (i, path) in self.collider_nodes.iter_shared().enumerate() {
-            roots.push(node_at(&this, &path, i)?);
-        }
-        let mut found: Vec<Gd<CollisionShape3D>> = Vec::new();
-        for root in roots {
-            let below = root.find_children_ex("*").type_("CollisionShape3D").owned(false).done();
-            let below = below.iter_shared().filter_map(|node| node.try_cast().ok());
-            found.extend(root.try_cast().ok().into_iter().chain(below));
-        }
-        let mut known = std::collections::HashSet::new();
-        found.retain(|node| known.insert(node.instance_id()));
-        Ok(found)
-    }
-}
-
-fn node_at(this: &Gd<Node>, path: &NodePath, i: usize) -> Result<Gd<Node>> {
-    let must = format!("`collider_nodes[{i}]` must name a node, but there is none at \"{path}\"");
-    this.get_node_or_null(path).ok_or_else(|| Refusal::new(must))
-}
-
-impl Colliders {
     /// Keeps the bodies of `nodes`, removes the others and adds new ones, in the order of `nodes`.
-    fn keep(&mut self, nodes: Vec<Gd<CollisionShape3D>>, cloth: &mut Cloth, owner: &MuslinCloth3D) {
-        let mut old: std::collections::HashMap<_, _> =
-            self.bodies.drain(..).map(|body| (body.id, body)).collect();
+    fn keep(&mut self, nodes: Vec<Gd<CollisionShape3D>>, cloth: &mut Cloth, contact: &Contact) {
+        let mut old: Vec<_> = self.bodies.drain(..).map(Some).collect();
+        let places = old.iter().flatten().enumerate().map(|(at, body)| (body.id, at));
+        let places: HashMap<_, _> = places.collect();
         for node in nodes {
             let id = node.instance_id();
+            let kept = places.get(&id).and_then(|at| old[*at].take());
             let new = Body { node, id, collider: None, is_refused: false };
-            self.bodies.push(old.remove(&id).unwrap_or(new));
+            self.bodies.push(kept.unwrap_or(new));
         }
-        old.into_values().for_each(|mut body| body.remove(cloth));
-        for body in &self.bodies {
-            if let Some(mut shape) = body.node.get_shape() {
-                let changed = owner.to_gd().callable("refresh_colliders");
-                if !shape.is_connected("changed", &changed) {
-                    shape.connect("changed", &changed);
-                }
+        old.iter_mut().flatten().for_each(|body| body.remove(cloth));
+        for mut shape in self.bodies.iter().filter_map(|body| body.node.get_shape()) {
+            if !shape.is_connected("changed", &contact.changed) {
+                shape.connect("changed", &contact.changed);
             }
         }
     }
@@ -157,7 +138,7 @@ impl Body {
     }
 
     /// Adds, moves or removes the collider.
-    fn follow(&mut self, cloth: &mut Cloth, owner: &MuslinCloth3D) -> Result<()> {
+    fn follow(&mut self, cloth: &mut Cloth, contact: &Contact) -> Result<()> {
         let is_there = self.node.is_instance_valid() && self.node.is_inside_tree();
         let shape = if is_there && !self.node.is_disabled() { self.node.get_shape() } else { None };
         let Some(shape) = shape else {
@@ -188,7 +169,7 @@ impl Body {
         if self.is_refused {
             return Ok(());
         }
-        let added = add(cloth, &self.node, &shape, placement, owner);
+        let added = add(cloth, &self.node, &shape, placement, contact);
         self.is_refused = added.is_err();
         self.collider = Some(added.map_err(|refusal| name(refusal, &self.node))?);
         Ok(())
@@ -200,12 +181,12 @@ fn add(
     node: &Gd<CollisionShape3D>,
     shape: &Gd<godot::classes::Shape3D>,
     placement: Placement,
-    owner: &MuslinCloth3D,
+    contact: &Contact,
 ) -> Result<Follower> {
     let PlacedShape { mut desc, offset, turn } = PlacedShape::new(shape, &placement)?;
     (desc.position, desc.rotation) = PlacedShape::pose(offset, turn, &placement);
-    desc.friction = friction(node).unwrap_or(owner.collider_friction);
-    desc.thickness = owner.collider_gap;
+    desc.friction = friction(node).unwrap_or(contact.friction);
+    desc.thickness = contact.gap;
     let handle = cloth.add_collider(&desc).map_err(|error| {
         let sentence = error.to_string();
         let sentence = sentence.replacen("`collider.friction", "`collider_friction", 1);

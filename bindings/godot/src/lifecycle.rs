@@ -13,24 +13,13 @@
 use crate::convert::{Placement, to_affine, to_godot};
 use crate::node::MuslinCloth3D;
 use crate::parameters::Parameters;
+use crate::preview::Preview;
 use crate::refusal::{Refusal, Result, check};
-use crate::source::{GridSize, PinMode, Source};
-use godot::builtin::PackedInt32Array;
+use crate::source::{GridSize, Source};
 use godot::classes::node::PhysicsInterpolationMode;
 use godot::classes::{Engine, Material};
-use godot::obj::{Gd, InstanceId, Singleton, WithBaseField, WithUserSignals};
+use godot::obj::{Gd, Singleton, WithBaseField, WithUserSignals};
 use muslin::{Cloth, EventKind, MeshDesc};
-
-/// What the picture in the editor follows from.
-#[derive(PartialEq)]
-pub struct Preview {
-    grid: GridSize,
-    weld_distance: f32,
-    extra_particles: i64,
-    pins: (PinMode, PackedInt32Array),
-    mesh: [Option<InstanceId>; 2],
-    parameters: Parameters,
-}
 
 impl MuslinCloth3D {
     /// Prints a refusal, and keeps it for the warning in the editor and for scripts.
@@ -142,8 +131,9 @@ impl MuslinCloth3D {
     /// Writes the cloth to the mesh that Godot draws.
     pub(crate) fn draw(&mut self, blend: f32) {
         let transform = self.base().get_global_transform();
+        let is_visible = self.base().is_visible_in_tree();
         let Some(cloth) = &mut self.cloth else { return };
-        if Placement::new(transform).is_none() {
+        if Placement::new(transform).is_none() || !is_visible {
             return;
         }
         let from_world = to_affine(transform.affine_inverse());

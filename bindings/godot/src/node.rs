@@ -2,10 +2,10 @@
 //!
 //! Reads nothing; `lifecycle` makes and advances the cloth, `methods` has what scripts call.
 
+use crate::choices::{FabricPreset, OF_PRESET, PinMode, SelfCollisionMode, WindMode};
 use crate::colliders::Colliders;
-use crate::lifecycle::Preview;
-use crate::parameters::{FabricPreset, OF_PRESET, Parameters, SelfCollisionMode, WindMode};
-use crate::source::PinMode;
+use crate::parameters::Parameters;
+use crate::preview::Preview;
 use crate::surface::Surface;
 use godot::builtin::{
     Aabb, Array, GString, NodePath, PackedInt32Array, PackedStringArray, StringName, Vector3,

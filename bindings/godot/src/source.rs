@@ -4,6 +4,7 @@
 //! counter-clockwise seen from the front, as Muslin has them, and texture coordinates.
 //! Invariant: Godot's triangles are clockwise, so every triangle is turned on its way in.
 
+use crate::choices::PinMode;
 use crate::convert::to_muslin;
 use crate::refusal::{Refusal, Result, check};
 use godot::builtin::{
@@ -13,27 +14,12 @@ use godot::classes::mesh::{ArrayType, PrimitiveType};
 use godot::classes::{ArrayMesh, Mesh};
 use godot::meta::FromGodot;
 use godot::obj::{EngineEnum, Gd};
-use godot::prelude::{Export, GodotConvert, Var};
 use muslin::glam::{Vec2, Vec3};
 
 /// Most particles of a new cloth.
 const MAX_PARTICLES: u64 = 1 << 22;
 /// Red from which on a vertex colour pins.
 const PIN_RED: f32 = 0.5;
-
-/// Which vertices are pinned from the start.
-#[derive(GodotConvert, Var, Export, Clone, Copy, Debug, Default, PartialEq)]
-#[godot(via = i64)]
-pub enum PinMode {
-    None = 0,
-    #[default]
-    TopEdge = 1,
-    TopCorners = 2,
-    Corners = 3,
-    LeftEdge = 4,
-    VertexColor = 5,
-    Vertices = 6,
-}
 
 /// Size of a grid.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -33,6 +33,8 @@ pub struct Surface {
     /// Vertices and topology revision of the surface, and whether it has tangents; none if the cloth
     /// is another one.
     shown: Option<(usize, u32, bool)>,
+    /// State revision, transform and blend that the vertices have.
+    sent: Option<(u32, Affine3, f32)>,
     bounds: Aabb,
     /// The material of a cloth that has no other.
     both_sides: Option<Gd<Material>>,
@@ -87,7 +89,7 @@ impl Surface {
         }
     }
 
-    /// Draws the cloth at `blend` between its last two ticks, in the space of the node, with
+    /// Draws the cloth, unless it is drawn so already, at `blend` between its last two ticks, in the space of the node, with
     /// tangents if so wanted. Returns whether the mesh has a new surface, which has no material yet.
     pub fn update(
         &mut self,
@@ -101,6 +103,11 @@ impl Surface {
         self.tangents.resize(if with_tangents { 8 * count } else { 0 }, 0);
         let now = (count, cloth.topology_revision(), with_tangents);
         let is_new = self.shown != Some(now);
+        let sent = Some((cloth.state_revision(), from_world, blend));
+        if !is_new && self.sent == sent {
+            return false;
+        }
+        self.sent = sent;
         if is_new {
             self.make(cloth, &desc);
             self.shown = Some(now);

@@ -286,7 +286,10 @@ func test_a_pulled_sheet_tears_and_tells_so() -> void:
 	var torn := []
 	cloth.torn.connect(func(position: Vector3, a: int, b: int) -> void:
 		torn.append([position, a, b])
-		cloth.get_stats())
+		var marker := Node3D.new()
+		marker.position = position
+		scene.add_child(marker)
+		check(cloth.get_stats().particles > 0, "handlers may call the cloth and change the scene"))
 	var grabbed := cloth.grab_ray(Vector3(0.1, -0.4, 2), Vector3.FORWARD, 0.1)
 	check(grabbed.get("grab", 0) != 0, "the ray grabs")
 	check(grabbed.position.distance_to(Vector3(0.1, -0.4, 0)) < 0.06, "near the hit")
@@ -440,6 +443,8 @@ func test_a_refused_live_change_keeps_the_values_of_the_cloth() -> void:
 	await ticks(1)
 	check(cloth.get_last_error() == "`inertia` must be from 0 to 1", cloth.get_last_error())
 	cloth.inertia = 1.0
+	cloth.set("pin_mode", 77)
+	check(cloth.pin_mode == MuslinCloth3D.PIN_TOP_EDGE, "a number without a meaning is refused")
 	cloth.columns = 1
 	check(not cloth.rebuild(), "a bad shape is refused")
 	check(cloth.get_positions().size() == 36, "and the cloth stays")
@@ -605,3 +610,31 @@ func drawn_mesh_is_the_cloth() -> void:
 		check(farthest > 0.95, "drawn tangents are like those of Godot: %f" % farthest)
 		var box := cloth.get_aabb().grow(1e-4)
 		check(box.has_point(points[0]) and box.has_point(points[-1]), "the box holds the cloth")
+
+
+## With physics interpolation the cloth is drawn between its last two ticks. In a frame that runs one
+## tick and no time more, that is at the tick before.
+func drawn_cloth_is_interpolated_between_ticks() -> void:
+	var camera := Camera3D.new()
+	camera.position = Vector3(0, -0.5, 3)
+	scene.add_child(camera)
+	physics_interpolation = true
+	var cloth := add_cloth({
+		columns = 5, rows = 5, width = 1.0, height = 1.0, pin_mode = MuslinCloth3D.PIN_NONE,
+	})
+	await ticks(20)
+	for i in 3:
+		var last := cloth.get_positions()
+		await process_frame
+		await RenderingServer.frame_post_draw
+		var now := cloth.get_positions()
+		var arrays := cloth.get_drawn_mesh().surface_get_arrays(0)
+		var drawn: float = arrays[Mesh.ARRAY_VERTEX][12].y
+		var share := Engine.get_physics_interpolation_fraction()
+		check(now[12].y < last[12].y - 0.01, "the cloth falls")
+		near(drawn, lerpf(last[12].y, now[12].y, share), 1e-3, "drawn between ticks")
+	physics_interpolation = false
+	await ticks(2)
+	await RenderingServer.frame_post_draw
+	var arrays := cloth.get_drawn_mesh().surface_get_arrays(0)
+	near(arrays[Mesh.ARRAY_VERTEX][12].y, cloth.get_positions()[12].y, 1e-3, "at the last tick")

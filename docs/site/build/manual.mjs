@@ -26,6 +26,7 @@ const SOURCES = ["include/muslin.h", "include/muslin.hpp"];
 const LANGUAGES = {
   ".rs": "rust", ".c": "c", ".h": "c", ".hpp": "cpp", ".cpp": "cpp", ".py": "python", ".js": "js", ".mjs": "js",
   ".toml": "toml", ".html": "html", ".css": "css", ".json": "json", ".md": "md", ".txt": "txt", ".cmake": "cmake",
+  ".gd": "gdscript",
 };
 
 /** Writes the pages into `work`, and returns the entries of the manual's sidebar. */
