@@ -72,6 +72,8 @@ pub fn test() -> Result {
     let tests = ["--fixed-fps", "60", "--script", "res://test_cloth.gd"];
     godot.run(&project, &[&["--headless"][..], &tests].concat())?;
     godot.run_on_screen(&project, &tests)?;
+    enable_editor_tests(&project)?;
+    godot.run(&project, &["--headless", "--editor"])?;
     let file = work().join("godot.png");
     std::fs::remove_file(&file).ok(); // it may be missing
     let name = file.display().to_string();
@@ -99,6 +101,15 @@ fn copy(from: &Path, to: &Path) -> Result {
     }
     std::fs::copy(from, to).during(|| format!("copying {}", from.display()))?;
     Ok(())
+}
+
+/// Adds the plugin that tests the node in the editor and then ends it.
+fn enable_editor_tests(project: &Path) -> Result {
+    copy(&bindings().join("tests/editor"), &project.join("addons/editor_tests"))?;
+    let settings = project.join("project.godot");
+    let plugin = "PackedStringArray(\"res://addons/editor_tests/plugin.cfg\")";
+    let text = files::read(&settings)?;
+    files::write(&settings, &format!("{text}\n[editor_plugins]\n\nenabled={plugin}\n"))
 }
 
 /// Writes each block of GDScript of the manual as a script, which the tests run.

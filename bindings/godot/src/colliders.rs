@@ -10,6 +10,7 @@ use crate::convert::Placement;
 use crate::refusal::{Refusal, Result};
 use crate::shapes::PlacedShape;
 use godot::builtin::Callable;
+use godot::classes::object::ConnectFlags;
 use godot::classes::{CollisionShape3D, PhysicsBody3D, RigidBody3D, StaticBody3D};
 use godot::obj::{Gd, InstanceId};
 use muslin::glam::{Quat, Vec3};
@@ -124,7 +125,7 @@ impl Colliders {
         old.iter_mut().flatten().for_each(|body| body.remove(cloth));
         for mut shape in self.bodies.iter().filter_map(|body| body.node.get_shape()) {
             if !shape.is_connected("changed", &contact.changed) {
-                shape.connect("changed", &contact.changed);
+                shape.connect_flags("changed", &contact.changed, ConnectFlags::DEFERRED);
             }
         }
     }

@@ -17,6 +17,7 @@ use crate::preview::Preview;
 use crate::refusal::{Refusal, Result, check};
 use crate::source::{GridSize, Source};
 use godot::classes::node::PhysicsInterpolationMode;
+use godot::classes::object::ConnectFlags;
 use godot::classes::{Engine, Material};
 use godot::obj::{Gd, Singleton, WithBaseField, WithUserSignals};
 use muslin::{Cloth, EventKind, MeshDesc};
@@ -221,7 +222,8 @@ impl MuslinCloth3D {
         let changed = self.to_gd().callable("rebuild");
         for mut mesh in self.mesh.clone().into_iter().chain(source) {
             if !mesh.is_connected("changed", &changed) {
-                mesh.connect("changed", &changed);
+                // Later, since reading a mesh may change it.
+                mesh.connect_flags("changed", &changed, ConnectFlags::DEFERRED);
             }
         }
     }
