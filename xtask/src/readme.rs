@@ -173,8 +173,7 @@ impl Block {
             }),
             other => Err(Failure::new(format!(
                 "no test runs blocks of {other:?}; rust, c, cpp, js, py, cmake and sh are tested, \
-                 gdscript on {}, text is not code",
-                GODOT_PAGE
+                 gdscript on {GODOT_PAGE}, text is not code"
             ))),
         }
     }

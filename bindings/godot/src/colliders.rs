@@ -9,7 +9,7 @@
 use crate::convert::Placement;
 use crate::refusal::{Refusal, Result};
 use crate::shapes::PlacedShape;
-use godot::builtin::Callable;
+use godot::builtin::{Callable, StringName};
 use godot::classes::object::ConnectFlags;
 use godot::classes::{CollisionShape3D, PhysicsBody3D, RigidBody3D, StaticBody3D};
 use godot::obj::{Gd, InstanceId};
@@ -20,6 +20,8 @@ use std::collections::HashMap;
 /// The bodies, and what has to be read again.
 pub struct Colliders {
     bodies: Vec<Body>,
+    /// What the nodes and shapes were read with.
+    contact: Option<Contact>,
     /// Whether the nodes are to be searched.
     nodes_are_old: bool,
     /// Whether the shapes are to be converted.
@@ -28,18 +30,21 @@ pub struct Colliders {
 
 impl Default for Colliders {
     fn default() -> Self {
-        Self { bodies: Vec::new(), nodes_are_old: true, shapes_are_old: true }
+        Self { bodies: Vec::new(), contact: None, nodes_are_old: true, shapes_are_old: true }
     }
 }
 
-/// What colliders have in common.
+/// What the properties of the node say about colliders.
+#[derive(Clone, PartialEq)]
 pub struct Contact {
+    /// The group whose nodes are colliders.
+    pub group: StringName,
+    /// Hash of the list of paths.
+    pub paths: u32,
     /// Friction of those whose body has no physics material; −1 = that of the cloth.
     pub friction: f32,
     /// Gap to the cloth [m]; −1 = its thickness.
     pub gap: f32,
-    /// What a shape calls when it changes.
-    pub changed: Callable,
 }
 
 /// A collision shape, and the collider that stands for it.
@@ -81,20 +86,25 @@ impl Colliders {
         self.bodies.iter().filter_map(|body| body.collider.as_ref()).map(|c| c.handle)
     }
 
-    /// Brings the colliders of the cloth to their nodes, which `find` searches if that is due.
+    /// Brings the colliders of the cloth to their nodes, which `find` searches if that is due. A
+    /// shape calls `changed` when it changes.
     ///
     /// # Errors
     /// Names the first node whose shape cannot be simulated, and the rule; all others are followed.
     pub fn follow(
         &mut self,
         cloth: &mut Cloth,
-        contact: &Contact,
+        contact: Contact,
+        changed: impl Fn() -> Callable,
         find: impl FnOnce() -> Result<Vec<Gd<CollisionShape3D>>>,
     ) -> Result<()> {
         let mut refused = Ok(());
+        if self.contact.as_ref() != Some(&contact) {
+            self.read_again();
+        }
         if core::mem::replace(&mut self.nodes_are_old, false) {
             match find() {
-                Ok(nodes) => self.keep(nodes, cloth, contact),
+                Ok(nodes) => self.keep(nodes, cloth, &changed()),
                 Err(refusal) => refused = Err(refusal),
             }
         }
@@ -104,15 +114,16 @@ impl Colliders {
                 body.remove(cloth);
                 body.is_refused = false;
             }
-            if let Err(refusal) = body.follow(cloth, contact) {
+            if let Err(refusal) = body.follow(cloth, &contact) {
                 refused = refused.and(Err(refusal));
             }
         }
+        self.contact = Some(contact);
         refused
     }
 
     /// Keeps the bodies of `nodes`, removes the others and adds new ones, in the order of `nodes`.
-    fn keep(&mut self, nodes: Vec<Gd<CollisionShape3D>>, cloth: &mut Cloth, contact: &Contact) {
+    fn keep(&mut self, nodes: Vec<Gd<CollisionShape3D>>, cloth: &mut Cloth, changed: &Callable) {
         let mut old: Vec<_> = self.bodies.drain(..).map(Some).collect();
         let places = old.iter().flatten().enumerate().map(|(at, body)| (body.id, at));
         let places: HashMap<_, _> = places.collect();
@@ -124,8 +135,8 @@ impl Colliders {
         }
         old.iter_mut().flatten().for_each(|body| body.remove(cloth));
         for mut shape in self.bodies.iter().filter_map(|body| body.node.get_shape()) {
-            if !shape.is_connected("changed", &contact.changed) {
-                shape.connect_flags("changed", &contact.changed, ConnectFlags::DEFERRED);
+            if !shape.is_connected("changed", changed) {
+                shape.connect_flags("changed", changed, ConnectFlags::DEFERRED);
             }
         }
     }

@@ -18,12 +18,14 @@ impl MuslinCloth3D {
     /// Names the first node whose shape cannot be simulated, and the rule; all others are followed.
     pub(crate) fn follow_colliders(&mut self, cloth: &mut Cloth) -> Result<()> {
         let contact = Contact {
+            group: self.collider_group.clone(),
+            paths: self.collider_nodes.hash_u32(),
             friction: self.collider_friction,
             gap: self.collider_gap,
-            changed: self.to_gd().callable("refresh_colliders"),
         };
         let mut colliders = core::mem::take(&mut self.colliders);
-        let followed = colliders.follow(cloth, &contact, || self.collision_shapes());
+        let changed = || self.to_gd().callable("refresh_colliders");
+        let followed = colliders.follow(cloth, contact, changed, || self.collision_shapes());
         self.colliders = colliders;
         followed
     }
