@@ -527,7 +527,7 @@ func test_equal_scenes_have_equal_bits() -> void:
 	check(cloth.state_hash() == other.state_hash() and cloth.state_hash() != 0, "equal bits")
 
 
-func test_the_documentation_of_the_class_is_registered() -> void:
+func test_properties_show_their_units() -> void:
 	var properties := {}
 	for property in ClassDB.class_get_property_list("MuslinCloth3D", true):
 		properties[property.name] = property
