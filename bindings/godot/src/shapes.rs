@@ -125,11 +125,13 @@ impl PlacedShape {
 
     fn height_map(map: &Gd<HeightMapShape3D>, placement: &Placement) -> Result<Self> {
         let (columns, rows) = (map.get_map_width() as u32, map.get_map_depth() as u32);
-        let rule = "be scaled equally along x and z for a height map";
+        let rule = "be scaled equally along x and z for a height map, and not mirrored";
         let scale =
             placement.scale().ok_or_else(|| Refusal::new(format!("`transform` must {rule}")))?;
         let is_square = (scale.x - scale.z).abs() <= 1.0e-3 * scale.x;
-        check(is_square, "transform", rule)?;
+        let [x, y, z] = placement.linear;
+        let is_mirrored = x.x.min(y.y).min(z.z) < 0.0;
+        check(is_square && !is_mirrored, "transform", rule)?;
         let spacing = scale.x;
         let heights = map.get_map_data().as_slice().iter().map(|h| h * scale.y).collect();
         let half = |count: u32| -0.5 * spacing * count.saturating_sub(1) as f32;

@@ -459,6 +459,7 @@ func test_refused_colliders_are_named_and_the_others_act() -> void:
 	for row in [
 		[SphereShape3D.new(), Vector3(1, 2, 1), "`transform` must be scaled equally along all axes for a sphere"],
 		[HeightMapShape3D.new(), Vector3(1, 1, 2), "`transform` must be scaled equally along x and z"],
+		[HeightMapShape3D.new(), Vector3(1, -1, 1), "for a height map, and not mirrored"],
 		[SeparationRayShape3D.new(), Vector3.ONE, "`shape` must not be a SeparationRayShape3D"],
 		[ConvexPolygonShape3D.new(), Vector3.ONE, "`shape.positions` must be from 4 to 1024"],
 		[ConcavePolygonShape3D.new(), Vector3.ONE, "`shape.indices` must hold triangles"],
