@@ -226,6 +226,30 @@ test("creating, tearing and freeing a thousand cloths does not grow the memory",
   assert.equal(memory(), before);
 });
 
+test("a new cloth grows the memory in one step, so that garbage is hardly collected", async () => {
+  await inNode(`
+    import assert from "node:assert/strict";
+    import { PerformanceObserver, constants } from "node:perf_hooks";
+    import init, { Cloth } from "muslin";
+    await init();
+    let collections = 0;
+    const isMajor = ({ detail }) => detail.kind === constants.NODE_PERFORMANCE_GC_MAJOR;
+    const count = (list) => (collections += list.getEntries().filter(isMajor).length);
+    new PerformanceObserver(count).observe({ entryTypes: ["gc"] });
+    const grid = Cloth.grid();
+    const mesh = { positions: grid.positions.slice(), indices: grid.indices.slice() };
+    const saved = grid.save();
+    const kept = [];
+    for (const make of [() => Cloth.grid(), () => Cloth.mesh(mesh), () => Cloth.restore(saved)]) {
+      collections = 0;
+      for (let i = 0; i < 25; i++) kept.push(make());
+      await new Promise((resolve) => setTimeout(resolve, 50));
+      assert.ok(collections < 50, \`\${collections} collections for 25 cloths, by \${make}\`);
+    }
+    assert.equal(kept.filter(({ isFreed }) => isFreed).length, 0);
+  `);
+});
+
 test("forgotten cloths are counted, and one warning says to free them", async () => {
   await inNode(`
     import assert from "node:assert/strict";
