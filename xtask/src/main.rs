@@ -13,6 +13,7 @@ mod browser;
 mod c;
 mod c_tests;
 mod clients;
+mod csharp;
 mod demo;
 mod dist;
 mod engines;

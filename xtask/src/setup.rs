@@ -166,6 +166,13 @@ pub const PYTHON_VENV: Need = Need {
     },
 };
 
+/// The compiler and the runtime of C#.
+pub const MONO: Need = Need {
+    name: "Mono",
+    packages: &["mono-mcs", "mono-runtime"],
+    is_installed: || which("mcs").is_some() && which("mono").is_some(),
+};
+
 /// The X11 libraries that the demo's window needs.
 pub const X11: Need = Need {
     name: "the X11 libraries",

@@ -3,8 +3,8 @@
 use crate::failure::Result;
 use crate::setup::{self, Need};
 use crate::{
-    bits, c_tests, clients, demo, dist, engines, examples, fuzz, js_tests, package, python, readme,
-    rust, site, verify, web,
+    bits, c_tests, clients, csharp, demo, dist, engines, examples, fuzz, js_tests, package, python,
+    readme, rust, site, verify, web,
 };
 
 /// One part of the tests.
@@ -155,6 +155,15 @@ pub const STEPS: &[Step] = &[
         run: python::test,
     },
     Step {
+        name: "csharp",
+        about: "the binding of C# under Mono, and the recipes for Unity and Unreal",
+        needs: csharp::NEEDS,
+        writes: &[CLibrary],
+        reads: &[],
+        is_default: true,
+        run: csharp::test,
+    },
+    Step {
         name: "clients",
         about: "the npm package as users install it: a page, Vite, webpack, node",
         needs: &[&setup::NODE, &setup::CHROMIUM],
@@ -175,7 +184,7 @@ pub const STEPS: &[Step] = &[
     Step {
         name: "readme",
         about: "every block of code and every command in README.md, CONTRIBUTING.md and docs",
-        needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL, &setup::PYTHON_VENV],
+        needs: readme::NEEDS,
         writes: &[CLibrary, PythonPackage, TestBuild, DemoPage],
         reads: &[NpmPackage],
         is_default: true,
