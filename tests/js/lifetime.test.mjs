@@ -105,6 +105,12 @@ test("the JavaScript in the package's README runs", async () => {
   const readme = await readFile(new URL("README.md", manifest), "utf8");
   const blocks = [...readme.matchAll(/```js\n(.*?)```/gs)].map(([, code]) => code);
   assert.equal(blocks.length, 3);
+  // What works everywhere comes first, also in the README of the repository.
+  const repository = await readFile(new URL("../../README.md", import.meta.url), "utf8");
+  for (const text of [readme, repository]) {
+    const [first] = text.match(/^ *import init, .*/m);
+    assert.match(first, /^import init, \{ Cloth \} from "muslin\/inline";/);
+  }
   await inNode(`
     const uploads = [];
     const gl = { bufferSubData: (target, at, list) => uploads.push(list) };
