@@ -106,7 +106,7 @@ fn copy_library() -> Result<PathBuf> {
 }
 
 /// The wheel that was built last.
-fn wheel() -> Result<PathBuf> {
+pub fn wheel() -> Result<PathBuf> {
     let mut wheels = files::with_suffix(&dist(), ".whl")?;
     match (wheels.pop(), wheels.is_empty()) {
         (Some(wheel), true) => Ok(wheel),

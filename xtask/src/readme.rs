@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
-use crate::{bench, c, c_tests, csharp, demo, files, js, npm, python, shell};
+use crate::{bench, c, c_tests, csharp, demo, files, first_frames, js, npm, python, shell};
 
 /// What running the blocks needs.
 pub const NEEDS: &[&Need] =
@@ -53,6 +53,7 @@ pub fn test(is_step: IsStep) -> Result {
     if !["README.md", "docs/"].iter().all(|from| blocks.iter().any(|b| b.page.starts_with(from))) {
         return Err(Failure::new("README.md or docs shows no code"));
     }
+    first_frames::check()?;
     files::create_empty_dir(&scratch())?;
     if has(&["c", "cpp", "cs"]) {
         c::build()?;

@@ -3,8 +3,8 @@
 use crate::failure::Result;
 use crate::setup::{self, Need};
 use crate::{
-    bits, c_tests, clients, csharp, demo, dist, engines, examples, fuzz, js_tests, package, python,
-    readme, rust, site, verify, web,
+    bits, c_tests, clean_root, clients, csharp, demo, dist, engines, examples, fuzz, js_tests,
+    package, python, readme, rust, site, verify, web,
 };
 
 /// One part of the tests.
@@ -234,6 +234,15 @@ pub const STEPS: &[Step] = &[
         reads: &[],
         is_default: false,
         run: dist::test,
+    },
+    Step {
+        name: "clean-root",
+        about: "the packed artefacts in a new Debian: C by CMake, Python by pip, npm in Vite and React",
+        needs: clean_root::NEEDS,
+        writes: &[CLibrary, ReleasePackages, PythonPackage],
+        reads: &[NpmPackage],
+        is_default: false,
+        run: clean_root::test,
     },
     Step {
         name: "engines",
