@@ -1,5 +1,5 @@
-// The recipe for Unreal, with doubles of the classes of the engine: a sheet that hangs, a ball that
-// moves into it, a tear.
+// The recipe for Unreal, with test doubles of the classes of the engine: a sheet that hangs, a ball
+// that moves into it, a tear.
 
 #include "MuslinSheetActor.cpp"
 

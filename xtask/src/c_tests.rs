@@ -74,8 +74,8 @@ fn check_wrapper() -> Result {
     shell::run(cc.arg(root.join("tests/c/wrapper.cpp")))
 }
 
-/// Compiles the recipe for Unreal with doubles of the engine's classes, as the engine does without
-/// exceptions, and runs it.
+/// Compiles the recipe for Unreal with test doubles of the engine's classes, without exceptions as
+/// the engine does, and runs it.
 fn check_recipe_for_unreal() -> Result {
     let root = files::root();
     let source = root.join("tests/unreal/tests.cpp");

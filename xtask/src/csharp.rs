@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! muslin.h ──▶ bindings/csharp/Muslin.cs ─┬─▶ target/csharp/binding.exe  tests/csharp
-//!                                         ├─▶ target/csharp/unity.exe    the example, in doubles of Unity's classes
+//!                                         ├─▶ target/csharp/unity.exe    the example, with test doubles of Unity
 //!                                         └─▶ target/csharp/unreal.exe   Muslin.Build.cs of the recipe for Unreal
 //! ```
 
