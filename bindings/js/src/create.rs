@@ -21,7 +21,7 @@ const MAX_PARTICLES: usize = 1 << 17;
 /// much of it is free.
 ///
 /// The allocator alone grows it in steps of 64 KiB. With each, V8 counts the whole memory as new and
-/// soon collects garbage, which takes up to ten times as long as making the cloth.
+/// soon collects garbage, which takes several times as long as making the cloth.
 #[inline(never)]
 fn reserve(particles: usize) {
     let mut room = Vec::<u8>::new();
