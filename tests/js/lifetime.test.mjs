@@ -105,6 +105,12 @@ test("the JavaScript in the package's README runs", async () => {
   const readme = await readFile(new URL("README.md", manifest), "utf8");
   const blocks = [...readme.matchAll(/```js\n(.*?)```/gs)].map(([, code]) => code);
   assert.equal(blocks.length, 3);
+  // What works everywhere comes first, also in the README of the repository.
+  const repository = await readFile(new URL("../../README.md", import.meta.url), "utf8");
+  for (const text of [readme, repository]) {
+    const [first] = text.match(/^ *import init, .*/m);
+    assert.match(first, /^import init, \{ Cloth \} from "muslin\/inline";/);
+  }
   await inNode(`
     const uploads = [];
     const gl = { bufferSubData: (target, at, list) => uploads.push(list) };
@@ -224,6 +230,30 @@ test("creating, tearing and freeing a thousand cloths does not grow the memory",
   const before = memory();
   for (let i = 0; i < 1000; i++) live().free();
   assert.equal(memory(), before);
+});
+
+test("a new cloth grows the memory in one step, so that garbage is hardly collected", async () => {
+  await inNode(`
+    import assert from "node:assert/strict";
+    import { PerformanceObserver, constants } from "node:perf_hooks";
+    import init, { Cloth } from "muslin";
+    await init();
+    let collections = 0;
+    const isMajor = ({ detail }) => detail.kind === constants.NODE_PERFORMANCE_GC_MAJOR;
+    const count = (list) => (collections += list.getEntries().filter(isMajor).length);
+    new PerformanceObserver(count).observe({ entryTypes: ["gc"] });
+    const grid = Cloth.grid();
+    const mesh = { positions: grid.positions.slice(), indices: grid.indices.slice() };
+    const saved = grid.save();
+    const kept = [];
+    for (const make of [() => Cloth.grid(), () => Cloth.mesh(mesh), () => Cloth.restore(saved)]) {
+      collections = 0;
+      for (let i = 0; i < 25; i++) kept.push(make());
+      await new Promise((resolve) => setTimeout(resolve, 50));
+      assert.ok(collections < 50, \`\${collections} collections for 25 cloths, by \${make}\`);
+    }
+    assert.equal(kept.filter(({ isFreed }) => isFreed).length, 0);
+  `);
 });
 
 test("forgotten cloths are counted, and one warning says to free them", async () => {

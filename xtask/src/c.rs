@@ -8,7 +8,7 @@ use crate::{files, shell};
 
 const STRICT: [&str; 4] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
 /// The system libraries that Rust's standard library needs.
-const SYSTEM: [&str; 3] = ["-lm", "-lpthread", "-ldl"];
+pub const SYSTEM: [&str; 3] = ["-lm", "-lpthread", "-ldl"];
 
 /// A language and its compilers.
 #[derive(Clone, Copy)]

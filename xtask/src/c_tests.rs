@@ -21,7 +21,8 @@ pub fn check() -> Result {
     // The examples in engines have a step of their own.
     sources.push(root.join("bindings/c/examples/hang.c"));
     sources.extend(files::with_suffix(&root.join("tests/c"), ".cpp")?);
-    sources.iter().try_for_each(|source| check_program(source))
+    sources.iter().try_for_each(|source| check_program(source))?;
+    check_recipe_for_unreal()
 }
 
 /// Compiles a program, and runs it linked statically, the same with valgrind, and linked
@@ -71,6 +72,22 @@ fn check_wrapper() -> Result {
     let mut cc = c::compiler(CPP, CPP.compiler);
     cc.args(["-fno-exceptions", "-fsyntax-only"]);
     shell::run(cc.arg(root.join("tests/c/wrapper.cpp")))
+}
+
+/// Compiles the recipe for Unreal with test doubles of the engine's classes, without exceptions as
+/// the engine does, and runs it.
+fn check_recipe_for_unreal() -> Result {
+    let root = files::root();
+    let source = root.join("tests/unreal/tests.cpp");
+    let program = c::program_dir().join("unreal");
+    let mut cc = c::strict_compiler(&source);
+    for folder in ["bindings/unreal", "tests/unreal/engine"] {
+        cc.arg("-I").arg(root.join(folder));
+    }
+    cc.args(["-fno-exceptions", "-o"]).arg(&program).arg(&source);
+    cc.arg(c::release_dir().join("libmuslin.a")).args(c::SYSTEM);
+    shell::run(&mut cc)?;
+    shell::run(&mut shell::command(&program))
 }
 
 /// Fails unless `tests/c/table.c` has a row for every argument of every function that can refuse.

@@ -84,9 +84,7 @@ fn check_length(file: &Path) -> Result {
 /// Counts the lines between the comments that mark where an example starts and where it draws
 /// first.
 fn check_first_frame(name: &str) -> Result {
-    let text = files::read(&example(name))?;
-    let lines = lines_to_first_frame(&text)
-        .ok_or_else(|| Failure::new(format!("{name} has no comments that mark its first frame")))?;
+    let lines = lines_of_example(name)?;
     println!("{name}: {lines} lines from nothing to the first frame");
     if lines > MAX_FIRST_FRAME_LINES {
         return Err(Failure::new(format!(
@@ -94,6 +92,13 @@ fn check_first_frame(name: &str) -> Result {
         )));
     }
     Ok(())
+}
+
+/// The lines of an example from nothing to its first frame.
+pub fn lines_of_example(name: &str) -> Result<usize> {
+    let text = files::read(&example(name))?;
+    lines_to_first_frame(&text)
+        .ok_or_else(|| Failure::new(format!("{name} has no comments that mark its first frame")))
 }
 
 fn lines_to_first_frame(text: &str) -> Option<usize> {

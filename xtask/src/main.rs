@@ -12,7 +12,9 @@ mod bits;
 mod browser;
 mod c;
 mod c_tests;
+mod clean_root;
 mod clients;
+mod csharp;
 mod demo;
 mod dist;
 mod engine_download;
@@ -20,6 +22,7 @@ mod engines;
 mod examples;
 mod failure;
 mod files;
+mod first_frames;
 mod fuzz;
 mod godot;
 mod js;
@@ -62,7 +65,8 @@ cargo xtask demo --web              build the demo as a page and serve it
 cargo xtask manual-pictures         draw the pictures of docs/manual with the demo
 cargo xtask check                   format, lints of the library, unit tests and closed forms
 cargo xtask test [STEP…]            all default steps, or the steps that are named
-  --all                             all steps, with dist, site, engines, godot and fuzz-long
+  --all                             all steps, with dist, clean-root, site, engines, godot and
+                                    fuzz-long
 cargo xtask bits                    simulate golden scenes on every platform, compare the hashes
   --bless                           write golden.txt from this machine instead
 cargo xtask web                     build the demo's page into dist/web

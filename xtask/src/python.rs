@@ -63,7 +63,7 @@ pub fn test() -> Result {
         let mut ruff = tools_python();
         ruff.args(["-m", "ruff"]).args(options).args(["--quiet", "--no-cache", "--config"]);
         ruff.arg(package().join("pyproject.toml")).args([package(), tests()]);
-        shell::run(ruff.arg(files::root().join("bindings/c/tools")))?;
+        shell::run(ruff.args(["c", "csharp"].map(other_tools)))?;
     }
     let mut pytest = tools_python();
     pytest.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider", "--durations=5"]);
@@ -74,7 +74,12 @@ pub fn test() -> Result {
     for folder in ["src", "tools", "examples"] {
         mypy.arg(package().join(folder));
     }
-    shell::run(mypy.arg(tests()))
+    shell::run(mypy.arg(other_tools("csharp")).arg(tests()))
+}
+
+/// The folder of the Python programs that another binding is made with.
+fn other_tools(binding: &str) -> PathBuf {
+    files::root().join("bindings").join(binding).join("tools")
 }
 
 /// Builds and installs the wheel, unless another step of the same run of the tests has done so.
@@ -101,7 +106,7 @@ fn copy_library() -> Result<PathBuf> {
 }
 
 /// The wheel that was built last.
-fn wheel() -> Result<PathBuf> {
+pub fn wheel() -> Result<PathBuf> {
     let mut wheels = files::with_suffix(&dist(), ".whl")?;
     match (wheels.pop(), wheels.is_empty()) {
         (Some(wheel), true) => Ok(wheel),

@@ -6,6 +6,7 @@
 //! | `rust` | step `rust` runs it as an example of the crate, because `src/lib.rs` includes the page |
 //! | `c`, `cpp` | compiled, linked both ways, run, and run under valgrind |
 //! | `js` | run in node, with the npm package installed |
+//! | `cs` | compiled with the binding of C#, and run with Mono |
 //! | `py` | run with Python 3, with the wheel of the Python package installed |
 //! | `gdscript` | step `godot` runs those of the page on Godot |
 //! | `sh` | each command is run, or named as a step that runs it |
@@ -15,7 +16,12 @@
 use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
-use crate::{bench, c, c_tests, demo, files, js, npm, python, setup, shell};
+use crate::setup::{self, Need};
+use crate::{bench, c, c_tests, csharp, demo, files, first_frames, js, npm, python, shell};
+
+/// What running the blocks needs.
+pub const NEEDS: &[&Need] =
+    &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL, &setup::PYTHON_VENV, &setup::MONO];
 
 /// The page whose blocks of GDScript step `godot` runs.
 pub const GODOT_PAGE: &str = "docs/manual/godot.md";
@@ -51,9 +57,9 @@ pub fn test(is_step: IsStep) -> Result {
     if !["README.md", "docs/"].iter().all(|from| blocks.iter().any(|b| b.page.starts_with(from))) {
         return Err(Failure::new("README.md or docs shows no code"));
     }
+    first_frames::check()?;
     files::create_empty_dir(&scratch())?;
-    if has(&["c", "cpp"]) {
-        setup::ensure(&[&setup::CXX, &setup::VALGRIND])?;
+    if has(&["c", "cpp", "cs"]) {
         c::build()?;
     }
     if has(&["js"]) {
@@ -166,14 +172,19 @@ impl Block {
                 files::write(&source, &self.text)?;
                 shell::run(shell::command(python::user_interpreter()).arg(source))
             }
+            "cs" => {
+                let source = scratch().join(name + ".cs");
+                files::write(&source, &self.text)?;
+                csharp::run_program(&source)
+            }
             "cmake" => self.check_cmake(),
             "sh" => self.commands().try_for_each(|(line, command)| {
                 run_command(command, is_step)
                     .during(|| format!("{} line {line}: `{command}`", self.page))
             }),
             other => Err(Failure::new(format!(
-                "no test runs blocks of {other:?}; rust, c, cpp, js, py, cmake and sh are tested, \
-                 gdscript on {GODOT_PAGE}, text is not code"
+                "no test runs blocks of {other:?}; rust, c, cpp, js, cs, py, cmake and sh are \
+                 tested, gdscript on {GODOT_PAGE}, text is not code"
             ))),
         }
     }

@@ -166,6 +166,20 @@ pub const PYTHON_VENV: Need = Need {
     },
 };
 
+/// The compiler and the runtime of C#.
+pub const MONO: Need = Need {
+    name: "Mono",
+    packages: &["mono-mcs", "mono-runtime"],
+    is_installed: || which("mcs").is_some() && which("mono").is_some(),
+};
+
+/// What makes a new Debian in a folder.
+pub const DEBOOTSTRAP: Need = Need {
+    name: "debootstrap",
+    packages: &["debootstrap"],
+    is_installed: || Path::new("/usr/sbin/debootstrap").exists(),
+};
+
 /// The X11 libraries that the demo's window needs.
 pub const X11: Need = Need {
     name: "the X11 libraries",

@@ -3,8 +3,8 @@
 use crate::failure::Result;
 use crate::setup::{self, Need};
 use crate::{
-    bits, c_tests, clients, demo, dist, engines, examples, fuzz, godot, js_tests, package, python,
-    readme, rust, site, verify, web,
+    bits, c_tests, clean_root, clients, csharp, demo, dist, engines, examples, fuzz, godot,
+    js_tests, package, python, readme, rust, site, verify, web,
 };
 
 /// One part of the tests.
@@ -157,6 +157,15 @@ pub const STEPS: &[Step] = &[
         run: python::test,
     },
     Step {
+        name: "csharp",
+        about: "the binding of C# under Mono, and the recipes for Unity and Unreal",
+        needs: csharp::NEEDS,
+        writes: &[CLibrary],
+        reads: &[],
+        is_default: true,
+        run: csharp::test,
+    },
+    Step {
         name: "clients",
         about: "the npm package as users install it: a page, Vite, webpack, node",
         needs: &[&setup::NODE, &setup::CHROMIUM],
@@ -177,7 +186,7 @@ pub const STEPS: &[Step] = &[
     Step {
         name: "readme",
         about: "every block of code and every command in README.md, CONTRIBUTING.md and docs",
-        needs: &[&setup::NODE, &setup::CXX, &setup::VALGRIND, &setup::EGL, &setup::PYTHON_VENV],
+        needs: readme::NEEDS,
         writes: &[CLibrary, PythonPackage, TestBuild, DemoPage],
         reads: &[NpmPackage],
         is_default: true,
@@ -227,6 +236,15 @@ pub const STEPS: &[Step] = &[
         reads: &[],
         is_default: false,
         run: dist::test,
+    },
+    Step {
+        name: "clean-root",
+        about: "the packed artefacts in a new Debian: C by CMake, Python by pip, npm in Vite and React",
+        needs: clean_root::NEEDS,
+        writes: &[CLibrary, ReleasePackages, PythonPackage],
+        reads: &[NpmPackage],
+        is_default: false,
+        run: clean_root::test,
     },
     Step {
         name: "engines",

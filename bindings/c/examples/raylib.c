@@ -35,7 +35,7 @@ static void must(MuslinStatus status) {
 }
 
 static void hang(void) {
-  /* From nothing ... */
+  /* From nothing... */
   MuslinGridDesc desc;
   muslin_grid_desc_init(&desc);
   desc.columns = 64;
@@ -55,7 +55,7 @@ static void hang(void) {
   memcpy(mesh.texcoords, view.uvs, 8 * (size_t)view.vertex_count);
   must(muslin_cloth_write_indices(cloth, mesh.indices, 2 * (size_t)view.index_capacity, 16, 0, 0));
   UploadMesh(&mesh, true);
-  /* ... to the first frame. */
+  /* ...to the first frame. */
   seen = view.topology_revision;
 }
 

@@ -45,11 +45,13 @@ class Struct:
 
 @dataclass
 class Function:
-    """A function: its result and the types of its parameters."""
+    """A function: its result, and the types and names of its parameters."""
 
     name: str
     result: str
     parameters: list[str]
+    names: list[str]
+    comment: str
 
 
 @dataclass
@@ -60,6 +62,8 @@ class Header:
     statuses: list[Constant] = field(default_factory=list)
     structs: list[Struct] = field(default_factory=list)
     functions: list[Function] = field(default_factory=list)
+    log_comment: str = ""
+    """The comment of MuslinLogFn."""
 
     def struct(self, name: str) -> Struct:
         """Returns the struct of this name."""
@@ -95,10 +99,14 @@ def read(path: Path) -> Header:
             members = declarations(match[2], [MEMBER])
             fields = [Field(one[2], plain(one[1]), one[3], note) for note, one in members]
             header.structs.append(Struct(match[1], comment, fields))
+        elif match.re is CALLBACK:
+            header.log_comment = comment
         elif match.re is FUNCTION:
             given = [] if match[3] == "void" else match[3].split(",")
             parameters = [plain(re.sub(r"\w+$", "", one.strip())) for one in given]
-            header.functions.append(Function(match[2], plain(match[1]), parameters))
+            names = [one.split()[-1].lstrip("*") for one in given]
+            function = Function(match[2], plain(match[1]), parameters, names, comment)
+            header.functions.append(function)
     return header
 
 

@@ -24,7 +24,7 @@ const SOURCES = ["include/muslin.h", "include/muslin.hpp"];
 
 /** The language of a block of code, by the end of the file's name. */
 const LANGUAGES = {
-  ".rs": "rust", ".c": "c", ".h": "c", ".hpp": "cpp", ".cpp": "cpp", ".py": "python", ".js": "js", ".mjs": "js",
+  ".rs": "rust", ".c": "c", ".h": "c", ".hpp": "cpp", ".cpp": "cpp", ".cs": "csharp", ".py": "python", ".js": "js", ".mjs": "js",
   ".toml": "toml", ".html": "html", ".css": "css", ".json": "json", ".md": "md", ".txt": "txt", ".cmake": "cmake",
   ".gd": "gdscript",
 };

@@ -142,6 +142,11 @@ fn check_same_bytes() -> Result {
     Ok(())
 }
 
+/// The archive for a target.
+pub fn archive_of(target: &str) -> Result<PathBuf> {
+    Ok(archive_path(chosen(&[target.into()])?[0]))
+}
+
 fn archive_path(platform: &Platform) -> PathBuf {
     archive::dir().join(build::name(platform) + platform.archive_suffix())
 }
