@@ -1,6 +1,5 @@
-// The types of Unreal Engine that the recipe uses, as far as it uses them, with the signatures of
-// Unreal Engine 5. They keep what they are given, so that the test can look at it. Unreal itself is
-// not here.
+// Test doubles of the types of Unreal Engine 5 that the actor uses. They keep what they are given, so
+// that the test can look at it. They are not checked against the headers of Unreal.
 
 #pragma once
 
