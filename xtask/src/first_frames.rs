@@ -4,7 +4,6 @@
 use std::path::Path;
 
 use crate::failure::{Failure, Result};
-use crate::readme::GODOT_PAGE;
 use crate::{engines, files};
 
 const TABLE: &str = "docs/manual/integration.md";
@@ -37,7 +36,7 @@ const PROGRAMS: [Program; 9] = [
     program("JavaScript", "README.md", "js", "cloth.positions"),
     program("three.js", NPM_README, "html", "renderer.render("),
     program("React", NPM_README, "jsx", ""),
-    program("Godot 4.3 or newer", GODOT_PAGE, "gdscript", "add_child(cloth)"),
+    program("Godot 4.3 or newer", "docs/manual/godot.md", "gdscript", "add_child(cloth)"),
 ];
 
 /// Examples whose row has the number of all their lines in parentheses: the files or folders of each.
