@@ -17,6 +17,9 @@ test("the page of the README in a new project of Vite and React draws a cloth th
   await page.goto(url);
   const canvas = page.locator("canvas");
   await canvas.waitFor();
+  // react-three-fiber sets the size of the canvas in a frame after the first.
+  const hasFilled = page.waitForFunction(() => document.querySelector("canvas").clientHeight === innerHeight, null, { timeout: 5000 });
+  await hasFilled.catch(() => {});
   const box = await canvas.boundingBox();
   const first = await page.screenshot();
   await page.waitForTimeout(1000);

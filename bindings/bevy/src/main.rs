@@ -1,24 +1,19 @@
 //! Example of Muslin in Bevy: a tablecloth falls onto a ball. Drag it with the left mouse button;
-//! pulled hard, it tears.
-//!
-//! Run it with `cargo run --release`. With `--shot FILE.png` a script drags the cloth and the
-//! window's picture is saved after 200 frames.
-//!
-//! Each frame `drag_cloth` moves the grab to the mouse ray, and `update_mesh` runs the ticks that
-//! are due and copies the cloth's vertices to the mesh that Bevy draws.
+//! pulled hard, it tears. Run it with `cargo run --release`. With `--shot FILE.png` a script drags
+//! the cloth, and the window's picture is saved after 200 frames.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::camera::visibility::NoFrustumCulling;
 use bevy::core_pipeline::tonemapping::Tonemapping;
+use bevy::diagnostic::FrameCount;
 use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured, save_to_disk};
 use muslin::{Cloth, ColliderDesc, Grab, GridDesc, PinMode, Preset, SelfCollision, Shape};
 
-/// Centre of the ball [m].
+/// Centre and radius of the ball [m].
 const BALL: Vec3 = Vec3::new(0.0, 0.62, 0.0);
-/// Radius of the ball [m].
 const RADIUS: f32 = 0.45;
 
 /// A cloth; the mesh of the same entity draws it.
@@ -31,21 +26,16 @@ struct Sheet {
     held: Option<(Grab, f32)>,
 }
 
-/// A scripted run for `--shot`.
+/// The file of a scripted run for `--shot`.
 #[derive(Resource)]
-struct Script {
-    file: String,
-    frame: u32,
-}
+struct Script(String);
 
 fn main() -> AppExit {
     let mut app = App::new();
     app.add_plugins(DefaultPlugins).insert_resource(ClearColor(Color::srgb(0.80, 0.83, 0.86)));
     app.insert_resource(GlobalAmbientLight { brightness: 600.0, ..default() });
-    let arguments: Vec<String> = std::env::args().collect();
-    if let [_, "--shot", file] = arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        let script = Script { file: file.into(), frame: 0 };
-        app.insert_resource(script).add_systems(PostUpdate, save_picture);
+    if let Some(file) = std::env::args().skip_while(|word| word != "--shot").nth(1) {
+        app.insert_resource(Script(file)).add_systems(PostUpdate, save_picture);
     }
     app.add_systems(Startup, set_up).add_systems(Update, (drag_cloth, update_mesh).chain()).run()
 }
@@ -72,8 +62,7 @@ fn create_cloth() -> muslin::Result<Cloth> {
 
 fn set_up(
     mut commands: Commands,
-    mut meshes: ResMut<Assets<Mesh>>,
-    mut images: ResMut<Assets<Image>>,
+    (mut meshes, mut images): (ResMut<Assets<Mesh>>, ResMut<Assets<Image>>),
     mut materials: ResMut<Assets<StandardMaterial>>,
 ) -> Result {
     let ball = Mesh3d(meshes.add(Sphere::new(RADIUS - 0.01).mesh().uv(64, 32)));
@@ -85,33 +74,29 @@ fn set_up(
     commands.spawn((sun, Transform::from_xyz(-2.0, 3.5, 2.5).looking_at(Vec3::ZERO, Vec3::Y)));
     let eye = Transform::from_xyz(0.9, 1.3, 2.0).looking_at(Vec3::Y * 0.55, Vec3::Y);
     commands.spawn((Camera3d::default(), Tonemapping::AcesFitted, eye));
-
     // Gingham: stripes of two colours cross.
     let colors = [[250, 246, 238, 255], [216, 132, 126, 255], [170, 36, 44, 255]];
     let texel = |i: usize| colors[(i % 256 / 8 + 1) % 2 + (i / 256 / 8 + 1) % 2];
     let texels = (0..256 * 256).flat_map(texel).collect();
     let (size, all) = (Extent3d { width: 256, height: 256, ..default() }, RenderAssetUsages::all());
-    let (plane, format) = (TextureDimension::D2, TextureFormat::Rgba8UnormSrgb);
-    let gingham = images.add(Image::new(size, plane, texels, format, all));
+    let image = Image::new(size, TextureDimension::D2, texels, TextureFormat::Rgba8UnormSrgb, all);
     let mut material = StandardMaterial { double_sided: true, cull_mode: None, ..default() };
-    material.base_color_texture = Some(gingham);
+    material.base_color_texture = Some(images.add(image));
     let sheet = Sheet { cloth: create_cloth()?, uploaded_revision: u32::MAX, held: None };
     let mesh = Mesh3d(meshes.add(Mesh::new(PrimitiveTopology::TriangleList, all)));
     commands.spawn((sheet, mesh, MeshMaterial3d(materials.add(material)), NoFrustumCulling));
     Ok(())
 }
 
-/// Grabs the cloth under the mouse (or the scripted pointer) while its button is down, and drags it
-/// at a constant distance from the camera.
+/// Drags the cloth with the mouse or the scripted pointer, at a constant distance from the camera.
 fn drag_cloth(
     mut sheet: Single<&mut Sheet>,
-    camera: Single<(&Camera, &GlobalTransform)>,
-    window: Single<&Window>,
-    (buttons, script): (Res<ButtonInput<MouseButton>>, Option<Res<Script>>),
+    (camera, window): (Single<(&Camera, &GlobalTransform)>, Single<&Window>),
+    (input, script, frames): (Res<ButtonInput<MouseButton>>, Option<Res<Script>>, Res<FrameCount>),
 ) -> Result {
-    let mouse = (window.cursor_position(), buttons.pressed(MouseButton::Left));
-    let (pointer, is_down) = script.map_or(mouse, |script| {
-        let progress = script.frame.saturating_sub(130) as f32;
+    let mouse = (window.cursor_position(), input.pressed(MouseButton::Left));
+    let (pointer, is_down) = script.map_or(mouse, |_| {
+        let progress = frames.0.saturating_sub(130) as f32;
         (Some(Vec2::new(720.0 + 4.0 * progress, 480.0 + progress)), progress > 0.0)
     });
     let Some(pointer) = pointer else { return Ok(()) };
@@ -137,10 +122,9 @@ fn update_mesh(
     let (mut sheet, mesh) = sheet.into_inner();
     let Sheet { cloth, uploaded_revision, .. } = &mut *sheet;
     cloth.advance(if script.is_some() { 1.0 / 60.0 } else { time.delta_secs() })?;
-    let (view, mut mesh) =
-        (cloth.view(), meshes.get_mut(mesh).ok_or("the mesh of the cloth is missing")?);
-    let arrays =
-        |vectors: &[muslin::glam::Vec3]| vectors.iter().map(|v| v.to_array()).collect::<Vec<_>>();
+    let view = cloth.view();
+    let mut mesh = meshes.get_mut(mesh).ok_or("the mesh of the cloth is missing")?;
+    let arrays = |v: &[muslin::glam::Vec3]| v.iter().map(|v| v.to_array()).collect::<Vec<_>>();
     mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, arrays(view.positions));
     mesh.insert_attribute(Mesh::ATTRIBUTE_NORMAL, arrays(view.normals));
     if *uploaded_revision != view.topology_revision {
@@ -153,10 +137,9 @@ fn update_mesh(
 }
 
 /// Saves the picture of frame 200 of a scripted run, and ends the program.
-fn save_picture(mut commands: Commands, mut script: ResMut<Script>) {
-    script.frame += 1;
-    if script.frame == 200 {
-        let save = save_to_disk(script.file.clone());
+fn save_picture(mut commands: Commands, script: Res<Script>, frames: Res<FrameCount>) {
+    if frames.0 == 200 {
+        let save = save_to_disk(script.0.clone());
         commands.spawn(Screenshot::primary_window()).observe(save).observe(
             |_: On<ScreenshotCaptured>, mut exit: MessageWriter<AppExit>| {
                 exit.write(AppExit::Success);

@@ -1,7 +1,7 @@
 /**
  * Muslin without WebAssembly: the core compiled to JavaScript, for pages whose content security
  * policy is `script-src 'self'` and nothing else. It gives the same bits as `muslin`, and takes
- * about twenty times as long.
+ * some 27 times as long.
  *
  * The classes are those of `muslin`; `muslin/three` and `muslin/pointers` work with it too. All
  * entry points share one core: the first `init()` that succeeds decides which. So a page can try

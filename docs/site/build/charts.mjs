@@ -76,7 +76,7 @@ function bars(data, unit, caption) {
       y: { axis: null, domain: data.map(({ name }) => name), padding: 0.58 },
       marks: [
         Plot.barX(data, { x: "value", y: "name", fill: ({ isOwn }) => (isOwn ? "var(--chart-own)" : "var(--chart-other)"), rx2: 4, insetLeft: 0 }),
-        Plot.text(data, { x: 0, y: "name", text: "name", textAnchor: "start", dy: -BAR * 0.86, fill: "var(--vp-c-text-1)" }),
+        Plot.text(data, { x: 0, y: "name", text: "name", textAnchor: "start", dy: -BAR * 0.96, fill: "var(--vp-c-text-1)" }),
         Plot.text(data, { x: "value", y: "name", text: ({ value }) => `${shown(value)} ${unit}`, textAnchor: "start", dx: 8, fill: "var(--vp-c-text-1)", fontWeight: 600 }),
       ],
       color: { type: "identity" },

@@ -29,6 +29,9 @@ const LANGUAGES = {
   ".gd": "gdscript",
 };
 
+/** The start of a link up to the place in its page. */
+const LINK = /\]\(([^)#\s]+)/g;
+
 /** Writes the pages into `work`, and returns the entries of the manual's sidebar. */
 export async function writeManualPages(root, work) {
   const pages = new Map(Object.entries(MORE));
@@ -68,22 +71,19 @@ async function withLinks(text, document, { root, pages, sources }) {
   const parts = text.split(/(^```[^]*?^```$)/m);
   for (const [at, part] of parts.entries()) {
     if (part.startsWith("```")) continue;
-    const targets = [...part.matchAll(/\]\(([^)#\s]+)/g)].map(([, target]) => target);
-    let changed = part;
-    for (const target of new Set(targets)) {
+    const links = new Map();
+    for (const [, target] of part.matchAll(LINK)) {
       if (/^\w+:/.test(target) || target.startsWith("pictures/")) continue;
       const path = normalize(join(dirname(document), target)).replace(/\/$/, "");
-      let link = pages.get(path);
-      if (!link) {
+      if (!pages.has(path)) {
         await stat(join(root, path)).catch(() => {
           throw new Error(`${document} links to ${target}, which does not exist`);
         });
         sources.add(path);
-        link = `source/${path}.md`;
       }
-      changed = changed.replaceAll(`](${target}`, `](/${link}`);
+      links.set(target, `/${pages.get(path) ?? `source/${path}.md`}`);
     }
-    parts[at] = changed;
+    parts[at] = part.replace(LINK, (whole, target) => (links.has(target) ? `](${links.get(target)}` : whole));
   }
   return parts.join("");
 }
