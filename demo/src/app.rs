@@ -209,6 +209,11 @@ impl App {
     /// # Errors
     /// As [`Pointers::press`].
     pub fn press(&mut self, id: u32, at: Vec2) -> Result<()> {
+        if self.is_on_walkway(at)? {
+            self.lift(id)?;
+            self.pointers.press_walker(id, at);
+            return Ok(());
+        }
         let (pointers, mut pick) = self.pick_context();
         pointers.press(id, at, &mut pick)
     }
@@ -270,6 +275,7 @@ impl App {
         let (pointers, mut pick) = self.pick_context();
         pointers.update_targets(&mut pick)?;
         if !self.settings.paused {
+            self.send_walker();
             let start = (self.clock)();
             self.scene.advance(seconds)?;
             self.meter.record_simulation((self.clock)() - start);
@@ -339,6 +345,7 @@ impl App {
             trail: &self.trail_points,
             wireframe: self.settings.wireframe,
             time: self.time,
+            rain: scene::rain(&self.settings),
             resolution_scale: self.resolution_scaler.scale(density),
         };
         let start = (self.clock)();
@@ -437,6 +444,8 @@ impl App {
         (&mut self.pointers, pick)
     }
 }
+
+mod walkway;
 
 #[cfg(test)]
 mod tests;

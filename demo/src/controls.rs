@@ -279,10 +279,13 @@ impl Control {
         match self.name {
             "fabric" => settings.scene != SceneKind::Discs,
             "resolution" => settings.scene != SceneKind::Figure,
-            "pinning" => matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag),
-            "drop" => {
-                matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag | SceneKind::Curtain)
+            "pinning" => {
+                matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag | SceneKind::Storm)
             }
+            "drop" => !matches!(
+                settings.scene,
+                SceneKind::Ball | SceneKind::Discs | SceneKind::Figure | SceneKind::Glass
+            ),
             _ => true,
         }
     }
@@ -433,6 +436,8 @@ mod tests {
         assert!(is_enabled("pinning", SceneKind::Flag) && !is_enabled("pinning", SceneKind::Ball));
         assert!(is_enabled("drop", SceneKind::Curtain) && !is_enabled("drop", SceneKind::Discs));
         assert!(is_enabled("fabric", SceneKind::Figure));
+        assert!(is_enabled("pinning", SceneKind::Storm) && is_enabled("drop", SceneKind::Doorway));
+        assert!(!is_enabled("drop", SceneKind::Glass));
         for name in ["resolution", "pinning", "drop"] {
             assert!(!is_enabled(name, SceneKind::Figure), "{name}");
         }

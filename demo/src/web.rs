@@ -154,6 +154,11 @@ impl Demo {
         Box::new(self.app.camera().view().eye.to_array())
     }
 
+    /// Returns the position of the walker [m]; nothing in scenes without one.
+    pub fn walker(&self) -> Box<[f32]> {
+        self.app.walker().map_or_else(Box::default, |at| Box::new(at.to_array()))
+    }
+
     /// Sets whether the key for the blade is held.
     #[wasm_bindgen(js_name = holdBlade)]
     pub fn hold_blade(&mut self, out: bool) {

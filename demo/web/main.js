@@ -84,6 +84,7 @@ function run(demo) {
       return at && Array.from(at);
     },
     eye: () => Array.from(demo.eye()),
+    walker: () => Array.from(demo.walker()),
   };
   setPageState("running");
 }

@@ -6,6 +6,7 @@ import { test } from "node:test";
 import {
   cameraPosition,
   distance,
+  hash,
   settings,
   stats,
   visit,
@@ -63,7 +64,7 @@ test("controls without an effect in a scene are disabled there", async () => {
     found.filter((one) => one.disabled).map((one) => one.id.replace("control-", "")),
   );
   const scenes = page.locator("#control-scene input");
-  for (const [scene, wanted] of [[3, ["fabric", "pinning", "drop"]], [4, ["pinning"]], [5, ["pinning", "resolution", "drop"]], [0, []]]) {
+  for (const [scene, wanted] of [[3, ["fabric", "pinning", "drop"]], [4, ["pinning"]], [5, ["pinning", "resolution", "drop"]], [6, ["pinning", "drop"]], [7, ["pinning"]], [8, []], [0, []]]) {
     await scenes.nth(scene).check();
     assert.deepEqual(await off(), wanted);
     await waitFrames(page, 2);
@@ -213,6 +214,26 @@ test("a link names scene and fabric, and unknown names change nothing", async ()
   assert.equal((await settings(page)).scene, "sheet");
   assert.deepEqual(complaints, []);
   await context.close();
+});
+
+test("links open the new scenes with their own fabrics, and the mouse walks through the doorway", async () => {
+  for (const [scene, fabric] of [["glass", "silk"], ["storm", "flag"], ["doorway", "cotton"]]) {
+    const { context, page, complaints } = await visitRunning({ path: `?scene=${scene}` });
+    const set = await settings(page);
+    assert.deepEqual([set.scene, set.fabric], [scene, fabric]);
+    const first = await hash(page);
+    await waitUntil(page, () => hash(page), (now) => now !== first, `${scene} does not move`);
+    if (scene === "doorway") {
+      // The far end of the floor, and then the near one.
+      for (const [y, far] of [[40, true], [390, false]]) {
+        await page.mouse.move(480, y);
+        const walker = () => page.evaluate(() => window.muslinDemo.walker());
+        await waitUntil(page, walker, (at) => at[2] < -0.8 === far && Math.abs(at[2]) > 0.6, `nobody walks to ${y}`);
+      }
+    }
+    assert.deepEqual(complaints, []);
+    await context.close();
+  }
 });
 
 test("the keyboard grabs the cloth, pulls it and lets it go", async () => {

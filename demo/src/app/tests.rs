@@ -179,3 +179,39 @@ fn a_new_scene_resets_the_camera_to_the_start_of_its_rig() {
     app.set("scene", 0.0).unwrap();
     assert_eq!(app.camera.view().target, usual.target);
 }
+
+#[test]
+fn the_walker_follows_the_mouse_through_the_curtain_and_a_finger_that_presses_the_floor() {
+    let mut app = app();
+    app.camera().set_drift(false);
+    app.set("scene", SceneKind::ALL.iter().position(|s| *s == SceneKind::Doorway).unwrap() as f32)
+        .unwrap();
+    let walker = |app: &App| app.scene.walker().unwrap().position();
+    let pixel = |app: &App, at: Vec3| {
+        let normal = app.camera.view().project(at, app.screen.aspect()).unwrap();
+        app.screen.pixels(normal)
+    };
+    let run = |app: &mut App| (0..180).for_each(|_| app.frame(1.0 / 60.0).unwrap());
+    let front = Vec3::new(0.2, walker(&app).y, 0.9);
+    let behind = front.with_z(-0.9);
+    for goal in [behind, front] {
+        let at = pixel(&app, goal);
+        app.drag(0, at).unwrap();
+        run(&mut app);
+        assert!(walker(&app).distance(goal) < 0.05, "at {}, not {goal}", walker(&app));
+    }
+    app.clear_hover();
+    let goal = front.with_x(-0.4);
+    let (at, view) = (pixel(&app, goal), app.camera.view());
+    app.press(1, at).unwrap();
+    run(&mut app);
+    assert!(walker(&app).distance(goal) < 0.05, "at {}, not {goal}", walker(&app));
+    assert_eq!(app.camera.view(), view, "the finger turned the camera");
+    app.lift(1).unwrap();
+    // The curtain in front of the walkway is grabbed.
+    let cloth = pixel(&app, app.scene.cloths[1].positions()[130]);
+    app.press(1, cloth).unwrap();
+    app.drag(1, cloth + Vec2::splat(20.0)).unwrap();
+    run(&mut app);
+    assert!(walker(&app).distance(goal) < 0.05, "it followed a pointer that holds cloth");
+}
