@@ -74,6 +74,8 @@ pub enum Action {
     Reset,
     /// Unpins all particles.
     DropPins,
+    /// Begins or ends the photo mode.
+    Photo,
 }
 
 const PINNINGS: [Pinning; 3] = [Pinning::TopEdge, Pinning::TopCorners, Pinning::Corners];
@@ -228,6 +230,13 @@ pub static CONTROLS: &[Control] = &[
         about: "Lets the sheet fall",
         key: 'X',
         kind: Kind::Button(Action::DropPins),
+    },
+    Control {
+        name: "photo",
+        label: "Photo",
+        about: "Holds time, hides the panel, saves a large picture",
+        key: 'O',
+        kind: Kind::Button(Action::Photo),
     },
 ];
 

@@ -152,6 +152,22 @@ impl Pointers {
         }
     }
 
+    /// Handles the release of all pressed pointers.
+    ///
+    /// # Errors
+    /// As [`Cloth::release`].
+    pub fn lift_all(&mut self, pick: &mut PickContext<'_>) -> Result<()> {
+        while let Some(id) = self.down.first().map(|pointer| pointer.id) {
+            self.lift(id, pick)?;
+        }
+        Ok(())
+    }
+
+    /// Handles a pressed pointer that orbits the camera, whatever is under it.
+    pub fn press_camera(&mut self, id: u32, at: Vec2) {
+        self.down.push(Pointer { id, at, hold: Hold::Camera });
+    }
+
     /// Handles a pressed pointer that walks a person.
     pub fn press_walker(&mut self, id: u32, at: Vec2) {
         self.down.push(Pointer { id, at, hold: Hold::Walker });

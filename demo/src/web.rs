@@ -181,6 +181,35 @@ impl Demo {
         Ok(())
     }
 
+    /// Returns whether the photo mode is on.
+    #[wasm_bindgen(js_name = isPhoto)]
+    pub fn is_photo(&self) -> bool {
+        self.app.is_photo()
+    }
+
+    /// Begins or ends the photo mode.
+    #[wasm_bindgen(js_name = setPhoto)]
+    pub fn set_photo(&mut self, on: bool) -> Result<(), JsError> {
+        self.app.set_photo(on).map_err(js_error)
+    }
+
+    /// Returns width and height of the pictures [px].
+    #[wasm_bindgen(js_name = photoSize)]
+    pub fn photo_size(&self) -> Box<[u32]> {
+        Box::new(self.app.photo_size())
+    }
+
+    /// Takes a picture: red, green, blue and alpha of each pixel, from the top row. Nothing while
+    /// the context is lost.
+    #[wasm_bindgen(js_name = takePhoto)]
+    pub fn take_photo(&mut self) -> Result<Option<Box<[u8]>>, JsError> {
+        let Some(renderer) = &mut self.renderer else {
+            return Ok(None);
+        };
+        let photo = self.app.take_photo(renderer).map_err(js_error)?;
+        Ok(Some(photo.pixels.into_flattened().into()))
+    }
+
     /// Returns the numbers of the panel as JSON.
     pub fn readout(&self) -> String {
         serde_json::to_string(&self.app.readout()).unwrap_or_default()

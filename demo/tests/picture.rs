@@ -106,6 +106,32 @@ fn a_cut_sheet_is_drawn_without_gaps_after_slow_frames_lower_its_detail() {
 }
 
 #[test]
+fn a_photo_shows_the_screen_at_four_thousand_pixels() {
+    let headless = Headless::new().unwrap_or_else(|error| panic!("{error}"));
+    let mut app = App::new(Settings::default(), || 0.0).unwrap();
+    app.resize(glam::Vec2::new(320.0, 180.0));
+    app.set_photo(true).unwrap();
+    let mut renderer = Renderer::new(&headless.context).unwrap();
+    let canvas = OffscreenCanvas::new(&headless.context, 320, 180);
+    let screen = |app: &mut App, renderer: &mut Renderer| {
+        app.draw(renderer, &canvas.target()).unwrap();
+        canvas.pixels()
+    };
+    let before = screen(&mut app, &mut renderer);
+    let photo = app.take_photo(&mut renderer).unwrap();
+    assert_eq!((photo.size, photo.pixels.len()), ([3840, 2160], 3840 * 2160));
+    assert!(screen(&mut app, &mut renderer) == before, "the photo changed the screen");
+    // The mean of each square of 12 x 12 pixels is the pixel of the screen.
+    let mean = |x: usize, y: usize| {
+        let square = (0..144).map(|i| photo.pixels[(12 * y + i / 12) * 3840 + 12 * x + i % 12]);
+        square.map(|pixel| u32::from(pixel[1])).sum::<u32>() / 144
+    };
+    let off = (0..320 * 180).map(|i| mean(i % 320, i / 320).abs_diff(u32::from(before[i][1])));
+    let mean_off = off.sum::<u32>() as f32 / (320.0 * 180.0);
+    assert!(mean_off < 3.0, "the photo differs from the screen by {mean_off} of 255");
+}
+
+#[test]
 fn the_frames_of_a_film_strip_differ() {
     let settings = Settings::default();
     for gesture in [Gesture::Yank, Gesture::Cut] {

@@ -6,6 +6,7 @@ import { test } from "node:test";
 
 import { variable } from "./browser.mjs";
 import "./demo-panel.test.mjs";
+import "./demo-photo.test.mjs";
 import "./demo-robust.test.mjs";
 import "./tender.test.mjs";
 import {

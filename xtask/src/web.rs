@@ -55,8 +55,13 @@ pub fn test() -> Result {
     let server = ServerProcess::start(&["demo", "--web", "--no-open", "--port", "0"])?;
     let shots = files::target().join("shots");
     files::create_dir(&shots)?;
-    let pictures =
-        ["web-1280x720.png", "web-390x844.png", "tender-1280x720.png", "tender-390x844.png"];
+    let pictures = [
+        "web-1280x720.png",
+        "web-390x844.png",
+        "web-photo.png",
+        "tender-1280x720.png",
+        "tender-390x844.png",
+    ];
     let pictures = pictures.map(|name| shots.join(name));
     for stale in pictures.iter().filter(|picture| picture.exists()) {
         std::fs::remove_file(stale).ok();

@@ -52,7 +52,7 @@ impl Walker {
     /// Radii of body and head [m].
     pub const RADII: [f32; 2] = [0.19, 0.13];
     /// Height of the shoulders, and of the centre of the head [m].
-    pub const HEIGHTS: [f32; 2] = [1.32, 1.47];
+    pub const HEIGHTS: [f32; 2] = [1.32, 1.44];
 
     /// Adds the walker at the far end of its bounds to all cloths.
     ///

@@ -215,3 +215,40 @@ fn the_walker_follows_the_mouse_through_the_curtain_and_a_finger_that_presses_th
     run(&mut app);
     assert!(walker(&app).distance(goal) < 0.05, "it followed a pointer that holds cloth");
 }
+
+#[test]
+fn in_the_photo_mode_time_stands_still_and_a_pointer_on_the_cloth_turns_the_camera() {
+    let mut app = app();
+    let at = app.particle_on_screen(820).unwrap();
+    app.press(1, at).unwrap();
+    assert_eq!(app.cursor().unwrap(), Cursor::Grabbing);
+    assert!(app.key('o', false).unwrap() && app.is_photo());
+    assert_ne!(app.cursor().unwrap(), Cursor::Grabbing, "a hand still holds the cloth");
+    let (hash, settings, eye) = (app.state_hash(), app.settings().clone(), app.camera.view().eye);
+    assert!(!app.key('f', false).unwrap(), "a key changed the wireframe");
+    app.press(1, at).unwrap();
+    app.drag(1, at + Vec2::new(150.0, 0.0)).unwrap();
+    for _ in 0..900 {
+        app.frame(1.0 / 60.0).unwrap();
+    }
+    let turned = app.camera.view().eye;
+    assert!(turned.distance(eye) > 0.5, "the camera did not turn");
+    app.lift(1).unwrap();
+    for _ in 0..900 {
+        app.frame(1.0 / 60.0).unwrap();
+    }
+    assert!(app.camera.view().eye.distance(turned) < 1.0e-3, "the camera drifts");
+    assert_eq!((app.state_hash(), app.settings()), (hash, &settings));
+    assert!(app.key('O', false).unwrap() && !app.is_photo());
+    app.frame(1.0 / 30.0).unwrap();
+    assert_ne!(app.state_hash(), hash, "time still stands");
+}
+
+#[test]
+fn a_photo_is_upright_on_an_upright_screen() {
+    let mut app = app();
+    app.resize(Vec2::new(1440.0, 900.0));
+    assert_eq!(app.photo_size(), [3840, 2160]);
+    app.resize(Vec2::new(390.0, 844.0));
+    assert_eq!(app.photo_size(), [2160, 3840]);
+}
