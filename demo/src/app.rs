@@ -53,6 +53,8 @@ pub struct App {
     /// Whether the size of the screen is known and the camera fits it.
     is_fitted: bool,
     reduced_motion: bool,
+    /// Whether no pointer was pressed yet.
+    is_untouched: bool,
     /// Whether time stands still for a photo.
     is_photo: bool,
     meter: Meter,
@@ -90,6 +92,7 @@ impl App {
             insets: [0.0; 4],
             is_fitted: false,
             reduced_motion: false,
+            is_untouched: true,
             is_photo: false,
             meter: Meter::default(),
             resolution_scaler: ResolutionScaler::default(),
@@ -219,6 +222,7 @@ impl App {
     /// # Errors
     /// As [`Pointers::press`].
     pub fn press(&mut self, id: u32, at: Vec2) -> Result<()> {
+        self.is_untouched = false;
         if self.is_photo {
             self.lift(id)?;
             self.pointers.press_camera(id, at);
@@ -292,6 +296,7 @@ impl App {
         pointers.update_targets(&mut pick)?;
         if !self.settings.paused && !self.is_photo {
             self.send_walker();
+            self.push_under_mouse(seconds)?;
             let start = (self.clock)();
             self.scene.advance(seconds)?;
             self.meter.record_simulation((self.clock)() - start);
@@ -475,6 +480,7 @@ impl App {
     }
 }
 
+mod hint;
 mod photo;
 mod walkway;
 

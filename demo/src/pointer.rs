@@ -173,11 +173,16 @@ impl Pointers {
         self.down.push(Pointer { id, at, hold: Hold::Walker });
     }
 
+    /// Returns where the mouse is while no pointer is pressed [px].
+    pub fn hover(&self) -> Option<Vec2> {
+        self.hover.filter(|_| self.down.is_empty())
+    }
+
     /// Returns where a person is to walk: to a pointer that was pressed for it, or to the mouse
     /// while nothing is pressed.
     pub fn walker_target(&self) -> Option<Vec2> {
         let held = self.down.iter().find(|p| matches!(p.hold, Hold::Walker)).map(|p| p.at);
-        held.or(self.hover.filter(|_| self.down.is_empty()))
+        held.or(self.hover())
     }
 
     /// Removes the hover position: the mouse has left the screen.

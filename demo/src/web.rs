@@ -101,6 +101,12 @@ impl Demo {
         self.app.key(key, shift).map_err(js_error)
     }
 
+    /// Ends the drift of the camera: there was an input.
+    #[wasm_bindgen(js_name = noteInput)]
+    pub fn note_input(&mut self) {
+        self.app.camera().note_input();
+    }
+
     /// Sets whether the user prefers reduced motion.
     #[wasm_bindgen(js_name = setReducedMotion)]
     pub fn set_reduced_motion(&mut self, reduced_motion: bool) -> Result<(), JsError> {

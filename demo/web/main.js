@@ -66,6 +66,10 @@ function run(demo) {
     showReadout(JSON.parse(demo.readout()));
     if (by("stages").open) showStages(JSON.parse(demo.stageTimes()));
   });
+  // Any input ends the drift of the camera, also one to the panel.
+  for (const name of ["pointerdown", "keydown"]) {
+    addEventListener(name, () => demo.noteInput(), { capture: true });
+  }
   listenToPointers(canvas, demo, (event, x, y) => {
     if (event.pointerType === "mouse" && event.button !== 0) return false;
     demo.holdBlade(event.shiftKey);

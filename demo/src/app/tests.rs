@@ -252,3 +252,30 @@ fn a_photo_is_upright_on_an_upright_screen() {
     app.resize(Vec2::new(390.0, 844.0));
     assert_eq!(app.photo_size(), [2160, 3840]);
 }
+
+#[test]
+fn the_cloth_yields_to_the_mouse_until_the_first_press() {
+    let run = |presses: bool, hovers: bool, is_reduced: bool| {
+        let mut app = app();
+        app.camera().set_drift(false);
+        app.set_reduced_motion(is_reduced).unwrap();
+        app.camera().set_drift(false);
+        if presses {
+            app.press(1, Vec2::new(20.0, 20.0)).unwrap();
+            app.lift(1).unwrap();
+        }
+        let at = app.particle_on_screen(820).unwrap();
+        if hovers {
+            app.drag(0, at).unwrap();
+        }
+        for _ in 0..20 {
+            app.frame(1.0 / 60.0).unwrap();
+        }
+        let depth = (app.particle(820).unwrap() - app.camera.view().eye).length();
+        (depth, app.state_hash())
+    };
+    let pushed = run(false, true, false).0 - run(false, false, false).0;
+    assert!(pushed > 0.02 && pushed < 0.25, "the mouse pushes the cloth by {pushed} m");
+    assert_eq!(run(true, true, false).1, run(true, false, false).1);
+    assert_eq!(run(false, true, true).1, run(false, false, true).1);
+}

@@ -155,6 +155,7 @@ impl WindowApp for ClothWindow {
     }
 
     fn key(&mut self, key: char) -> Result<()> {
+        self.app.camera().note_input();
         match key {
             ESCAPE if self.app.is_photo() => self.app.set_photo(false)?,
             RETURN if self.app.is_photo() => self.wants_photo = true,
@@ -183,6 +184,9 @@ impl WindowApp for ClothWindow {
 
     fn run_commands(&mut self) -> Result<()> {
         for command in self.commands.drain(..) {
+            if !matches!(command, PanelCommand::TimeStages(_)) {
+                self.app.camera().note_input();
+            }
             match command {
                 PanelCommand::Set(name, value) => self.app.set(name, value)?,
                 PanelCommand::Act(action) => self.app.run_action(action)?,
