@@ -203,6 +203,31 @@ test("panel and instructions open and close, and on a narrow screen the panel st
   await context.close();
 });
 
+test("on a phone every target is at least 44 pixels high and wide", async () => {
+  const phone = { viewport: { width: 390, height: 844 }, hasTouch: true };
+  const { context, page, complaints } = await visitRunning(phone);
+  await page.locator("#collapse").tap();
+  const targets = page.locator("button:visible, #controls .segments label, #controls input[type=range], summary, footer a");
+  assert.ok((await targets.count()) > 30);
+  for (const target of await targets.all()) {
+    const { width, height } = await target.boundingBox();
+    const text = await target.evaluate((it) => it.id || it.textContent.trim());
+    assert.ok(width >= 44 && height >= 44, `${text} has ${width} x ${height} pixels`);
+  }
+  // A switch is smaller than its target, which reaches beyond it.
+  for (const toggle of await page.locator("#controls input[type=checkbox]").all()) {
+    await toggle.scrollIntoViewIfNeeded();
+    const reached = await toggle.evaluate((it) => {
+      const { left, top, width, height } = it.getBoundingClientRect();
+      const at = (x, y) => document.elementFromPoint(left + width / 2 + x, top + height / 2 + y) === it;
+      return [at(-21, 0), at(21, 0), at(0, -21), at(0, 21)];
+    });
+    assert.deepEqual(reached, [true, true, true, true], await toggle.getAttribute("id"));
+  }
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
 test("a link names scene and fabric, and unknown names change nothing", async () => {
   const linked = await visitRunning({ path: "?scene=curtain&fabric=denim&wind=3" });
   const { scene, fabric, wind } = await settings(linked.page);
