@@ -342,17 +342,17 @@ impl App {
     ) -> std::result::Result<(), CoreError> {
         let density = output.width() as f32 / self.screen.size.x.max(1.0);
         let scaler = &self.resolution_scaler;
-        self.draw_at(renderer, output, scaler.scale(density), !scaler.is_low())
+        self.draw_at(renderer, output, scaler.scale(density), scaler.is_low())
     }
 
-    /// Draws with `scale` times the pixels of the output along each side; `refine` says whether
-    /// cloths are made finer.
+    /// Draws with `scale` times the pixels of the output along each side; with `is_low` cloths are
+    /// not made finer, and pixels have one sample.
     fn draw_at(
         &mut self,
         renderer: &mut Renderer,
         output: &RenderTarget<'_>,
         scale: f32,
-        refine: bool,
+        is_low: bool,
     ) -> std::result::Result<(), CoreError> {
         self.lines.resize_with(self.scene.cloths.len(), WireframeLines::default);
         self.smooth.resize_with(self.scene.cloths.len(), SmoothSurface::default);
@@ -381,6 +381,7 @@ impl App {
             time: self.time,
             rain: scene::rain(&self.settings),
             resolution_scale: scale,
+            is_low,
         };
         let start = (self.clock)();
         surfaces::upload(
@@ -388,7 +389,7 @@ impl App {
             &mut self.scene,
             &self.settings,
             &self.lines,
-            (&mut self.smooth, refine),
+            (&mut self.smooth, !is_low),
             self.generation,
         );
         let uploaded = (self.clock)();

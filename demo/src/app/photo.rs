@@ -55,7 +55,7 @@ impl App {
         let size = self.photo_size();
         let context = renderer.context().clone();
         let canvas = OffscreenCanvas::new(&context, size[0], size[1]);
-        self.draw_at(renderer, &canvas.target(), 1.0, true)?;
+        self.draw_at(renderer, &canvas.target(), 1.0, false)?;
         Ok(Photo { size, pixels: canvas.pixels() })
     }
 }

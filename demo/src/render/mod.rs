@@ -63,6 +63,8 @@ pub struct FrameScene<'a> {
     pub rain: Option<glam::Vec3>,
     /// Fraction of the output pixels to draw along each side; the result is scaled up.
     pub resolution_scale: f32,
+    /// Whether to draw one sample per pixel, for slow machines.
+    pub is_low: bool,
 }
 
 /// All GPU resources of the cloth scenes; created again after a lost context.
@@ -159,7 +161,7 @@ impl Renderer {
     ) -> Result<(), CoreError> {
         let side = |pixels: u32| (pixels as f32 * frame.resolution_scale).round().max(1.0) as u32;
         let (width, height) = (side(output.width()), side(output.height()));
-        HdrTarget::resize(&mut self.target, &self.context, width, height);
+        HdrTarget::resize(&mut self.target, &self.context, [width, height], frame.is_low);
         let [key, rim] = [&self.lights.key, &self.lights.rim].map(Light::clip_from_world);
         let maps = [
             (&self.shadow, key, Detail::Full),
