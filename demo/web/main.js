@@ -101,9 +101,11 @@ function run(demo) {
   setPageState("running");
 }
 
-/** Applies choices of the address, such as `?scene=curtain&fabric=denim`. */
+/** Applies the scene of the page, and choices of the address, such as `?scene=curtain&fabric=denim`. */
 function openLink(demo) {
   const wanted = new URLSearchParams(location.search);
+  const { scene } = document.documentElement.dataset;
+  if (scene && !wanted.has("scene")) wanted.set("scene", scene);
   for (const { name, options = [] } of JSON.parse(Demo.controls())) {
     const option = options.findIndex((label) => label.toLowerCase() === wanted.get(name));
     if (option >= 0) demo.set(name, option);

@@ -5,6 +5,7 @@ import { test } from "node:test";
 
 import {
   cameraPosition,
+  checkShareMetadata,
   distance,
   hash,
   settings,
@@ -237,6 +238,16 @@ test("a link names scene and fabric, and unknown names change nothing", async ()
   await linked.context.close();
   const { context, page, complaints } = await visitRunning({ path: "?scene=rug&fabric=" });
   assert.equal((await settings(page)).scene, "sheet");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("a scene has a page of its own, with a picture for previews of links", async () => {
+  const { context, page, complaints } = await visitRunning({ path: "storm.html?fabric=denim" });
+  const { scene, fabric } = await settings(page);
+  assert.deepEqual([scene, fabric], ["storm", "denim"]);
+  assert.equal(await page.title(), "Muslin: a torn flag in a storm");
+  await checkShareMetadata(page);
   assert.deepEqual(complaints, []);
   await context.close();
 });

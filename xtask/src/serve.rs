@@ -177,6 +177,7 @@ fn content_type(path: &Path) -> &'static str {
         Some("json" | "map") => "application/json",
         Some("svg") => "image/svg+xml",
         Some("png") => "image/png",
+        Some("jpg") => "image/jpeg",
         Some("ts" | "md" | "txt" | "hash") => "text/plain; charset=utf-8",
         _ => "application/octet-stream",
     }

@@ -8,7 +8,7 @@ use flate2::write::GzEncoder;
 
 use crate::browser::ServerProcess;
 use crate::failure::{During, Failure, Result};
-use crate::{browser, files, picture, serve, wasm};
+use crate::{browser, files, picture, serve, share, wasm};
 
 /// The folder that the page is built in.
 pub fn dir() -> PathBuf {
@@ -47,6 +47,7 @@ fn with_address(page: &str, url: &str) -> String {
 pub fn build() -> Result {
     files::create_empty_dir(&dir())?;
     files::copy_dir(&files::root().join("demo/web"), &dir())?;
+    share::write_pages(&dir())?;
     // The wasm module holds the receipt's font, whose licence must come with it.
     let licence = files::read(&files::root().join("demo/fonts/OFL.txt"))?;
     files::write(&dir().join("OFL.txt"), &licence)?;
