@@ -15,8 +15,6 @@ use muslin::{Cloth, Result, Stage};
 use muslin_scenes::SceneInstance;
 use three_d::{CoreError, RenderTarget};
 
-pub use photo::Photo;
-
 use crate::afterglow::Afterglow;
 use crate::camera::{Camera, FreeArea};
 use crate::controls::{self, Action, Kind};
@@ -370,8 +368,10 @@ impl App {
         }
         self.trail_points.clear();
         self.trail_points.extend(self.afterglow.trail_points());
-        let (solids, appearances) =
-            (scene::solids(&self.settings, &self.scene), scene::appearances(&self.settings));
+        let (solids, appearances) = (
+            scene::solids::solids(&self.settings, &self.scene),
+            scene::appearances(&self.settings),
+        );
         let frame = FrameScene {
             solids: &solids,
             view: self.camera.view(),
@@ -482,7 +482,7 @@ impl App {
 }
 
 mod hint;
-mod photo;
+pub mod photo;
 mod walkway;
 
 #[cfg(test)]

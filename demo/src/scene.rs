@@ -7,7 +7,7 @@
 //!
 //! Invariant: clamped settings always build a scene.
 
-mod solids;
+pub mod solids;
 
 use std::f32::consts::TAU;
 
@@ -25,7 +25,6 @@ use crate::fabric::{self, Appearance, Fabric};
 use crate::render::light::FLOOR;
 use crate::scene_kind::SceneKind;
 use crate::settings::{Pinning, Settings};
-pub use solids::solids;
 
 /// Air speed of the hanging sheet at wind 1 [m/s].
 const SHEET_WIND: f32 = 1.3;

@@ -115,7 +115,7 @@ fn run(args: &[String]) -> Result {
     match chore.as_str() {
         "demo" => demo::run(rest),
         "manual-pictures" => alone(chore, rest, demo::draw_manual_pictures),
-        "share-pictures" => alone(chore, rest, share::draw),
+        "share-pictures" => alone(chore, rest, demo::draw_share_pictures),
         "test" => test::run(rest),
         "step" => test::run_step(rest),
         "check" => test::check(rest),

@@ -5,7 +5,7 @@ use std::path::Path;
 use jpeg_encoder::{ColorType, Encoder};
 
 use crate::failure::{During, Failure, Result};
-use crate::{demo, files, picture};
+use crate::{files, picture};
 
 /// A scene that has a page of its own.
 struct Shared {
@@ -81,23 +81,22 @@ const SHARED: [Shared; 8] = [
 /// Quality of the pictures, 1 to 100.
 const QUALITY: u8 = 86;
 
-/// `cargo xtask share-pictures`: draws the pictures into `demo/web`.
-pub fn draw() -> Result {
-    let shots = files::target().join("shots");
-    files::create_dir(&shots)?;
-    for Shared { scene, options, .. } in SHARED {
-        let png = shots.join(format!("share-{scene}.png"));
+/// Returns each scene and the options of the demo that draw its picture.
+pub fn shots() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
+    SHARED.iter().map(|Shared { scene, options, .. }| {
         let first = ["--scene", scene, "--size", "1200x630"];
-        let options: Vec<_> = first.into_iter().chain(options.split(' ')).collect();
-        demo::shoot(&png, &options)?;
-        let ([width, height], rgb) = picture::read(&png)?;
-        let jpeg = files::root().join("demo/web").join(picture_name(scene));
-        let why = || format!("writing {}", jpeg.display());
-        let encoder = Encoder::new_file(&jpeg, QUALITY).during(why)?;
-        let size = [width, height].map(|side| side as u16);
-        encoder.encode(rgb.as_flattened(), size[0], size[1], ColorType::Rgb).during(why)?;
-    }
-    Ok(())
+        (*scene, first.into_iter().chain(options.split(' ')).collect())
+    })
+}
+
+/// Saves the PNG of a scene as the picture of its page, in `demo/web`.
+pub fn save_picture(scene: &str, png: &Path) -> Result {
+    let ([width, height], rgb) = picture::read(png)?;
+    let jpeg = files::root().join("demo/web").join(picture_name(scene));
+    let why = || format!("writing {}", jpeg.display());
+    let encoder = Encoder::new_file(&jpeg, QUALITY).during(why)?;
+    let size = [width, height].map(|side| side as u16);
+    encoder.encode(rgb.as_flattened(), size[0], size[1], ColorType::Rgb).during(why)
 }
 
 /// Writes the page of each scene beside the first page, from which it differs in its head only.

@@ -72,7 +72,7 @@ impl Scene for TornFlag {
         if stats.particles < whole + 30 {
             return Err(format!("only {} particles are at rips", stats.particles - whole));
         }
-        if stats.max_speed < 1.0 {
+        if stats.max_speed < 0.3 {
             return Err(format!("the strips move at {} m/s at most", stats.max_speed));
         }
         if stats.max_stretch > 0.08 {

@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::{BufWriter, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use crate::app::Photo;
+use crate::app::photo::Photo;
 
 /// Saves a photo of a scene in a folder, and returns the path.
 ///
