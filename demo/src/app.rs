@@ -51,6 +51,10 @@ pub struct App {
     /// Whether the size of the screen is known and the camera fits it.
     is_fitted: bool,
     reduced_motion: bool,
+    /// Whether no pointer was pressed yet.
+    is_untouched: bool,
+    /// Whether time stands still for a photo.
+    is_photo: bool,
     meter: Meter,
     resolution_scaler: ResolutionScaler,
     clock: fn() -> f64,
@@ -86,6 +90,8 @@ impl App {
             insets: [0.0; 4],
             is_fitted: false,
             reduced_motion: false,
+            is_untouched: true,
+            is_photo: false,
             meter: Meter::default(),
             resolution_scaler: ResolutionScaler::default(),
             clock,
@@ -138,7 +144,8 @@ impl App {
         self.set_settings(settings)
     }
 
-    /// Applies the control that belongs to a key; returns whether there is one.
+    /// Applies the control that belongs to a key; returns whether there is one. In the photo mode
+    /// there is only the one that ends it.
     ///
     /// # Errors
     /// As [`App::set_settings`].
@@ -146,6 +153,9 @@ impl App {
         let Some(control) = controls::find_control_by_key(key) else {
             return Ok(false);
         };
+        if self.is_photo && !matches!(control.kind, Kind::Button(Action::Photo)) {
+            return Ok(false);
+        }
         let mut settings = self.settings.clone();
         match control.press(&mut settings, shift) {
             Some(action) => self.run_action(action)?,
@@ -168,6 +178,7 @@ impl App {
                 self.scene.cloths.iter_mut().for_each(Cloth::unpin_all);
                 Ok(())
             }
+            Action::Photo => self.set_photo(!self.is_photo),
         }
     }
 
@@ -209,6 +220,17 @@ impl App {
     /// # Errors
     /// As [`Pointers::press`].
     pub fn press(&mut self, id: u32, at: Vec2) -> Result<()> {
+        self.is_untouched = false;
+        if self.is_photo {
+            self.lift(id)?;
+            self.pointers.press_camera(id, at);
+            return Ok(());
+        }
+        if self.is_on_walkway(at)? {
+            self.lift(id)?;
+            self.pointers.press_walker(id, at);
+            return Ok(());
+        }
         let (pointers, mut pick) = self.pick_context();
         pointers.press(id, at, &mut pick)
     }
@@ -266,10 +288,13 @@ impl App {
     /// As [`SceneInstance::advance`].
     pub fn frame(&mut self, seconds: f32) -> Result<()> {
         let seconds = if seconds.is_finite() { seconds.max(0.0) } else { 0.0 };
-        self.camera.advance(seconds.min(LONGEST_FRAME), self.pointers.is_any_down());
+        let is_held = self.pointers.is_any_down() || self.is_photo;
+        self.camera.advance(seconds.min(LONGEST_FRAME), is_held);
         let (pointers, mut pick) = self.pick_context();
         pointers.update_targets(&mut pick)?;
-        if !self.settings.paused {
+        if !self.settings.paused && !self.is_photo {
+            self.send_walker();
+            self.push_under_mouse(seconds)?;
             let start = (self.clock)();
             self.scene.advance(seconds)?;
             self.meter.record_simulation((self.clock)() - start);
@@ -313,6 +338,20 @@ impl App {
         renderer: &mut Renderer,
         output: &RenderTarget<'_>,
     ) -> std::result::Result<(), CoreError> {
+        let density = output.width() as f32 / self.screen.size.x.max(1.0);
+        let scaler = &self.resolution_scaler;
+        self.draw_at(renderer, output, scaler.scale(density), scaler.is_low())
+    }
+
+    /// Draws with `scale` times the pixels of the output along each side; with `is_low` cloths are
+    /// not made finer, and pixels have one sample.
+    fn draw_at(
+        &mut self,
+        renderer: &mut Renderer,
+        output: &RenderTarget<'_>,
+        scale: f32,
+        is_low: bool,
+    ) -> std::result::Result<(), CoreError> {
         self.lines.resize_with(self.scene.cloths.len(), WireframeLines::default);
         self.smooth.resize_with(self.scene.cloths.len(), SmoothSurface::default);
         let mut seconds = [0.0; Stage::COUNT];
@@ -329,9 +368,10 @@ impl App {
         }
         self.trail_points.clear();
         self.trail_points.extend(self.afterglow.trail_points());
-        let density = output.width() as f32 / self.screen.size.x.max(1.0);
-        let (solids, appearances) =
-            (scene::solids(&self.settings, &self.scene), scene::appearances(&self.settings));
+        let (solids, appearances) = (
+            scene::solids::solids(&self.settings, &self.scene),
+            scene::appearances(&self.settings),
+        );
         let frame = FrameScene {
             solids: &solids,
             view: self.camera.view(),
@@ -339,7 +379,9 @@ impl App {
             trail: &self.trail_points,
             wireframe: self.settings.wireframe,
             time: self.time,
-            resolution_scale: self.resolution_scaler.scale(density),
+            rain: scene::rain(&self.settings),
+            resolution_scale: scale,
+            is_low,
         };
         let start = (self.clock)();
         surfaces::upload(
@@ -347,7 +389,7 @@ impl App {
             &mut self.scene,
             &self.settings,
             &self.lines,
-            (&mut self.smooth, !self.resolution_scaler.is_low()),
+            (&mut self.smooth, !is_low),
             self.generation,
         );
         let uploaded = (self.clock)();
@@ -405,13 +447,14 @@ impl App {
             self.camera.reset_to_rig(scene::camera_rig(settings.scene), self.screen.aspect());
         }
         self.pointers.clear();
+        self.is_photo = false;
         self.generation = self.generation.wrapping_add(1);
         Ok(())
     }
 
     /// Advances the time of what moves by itself: halos and dust.
     fn pass_time(&mut self, seconds: f32) {
-        if !self.reduced_motion {
+        if !self.reduced_motion && !self.is_photo {
             self.time = (self.time + seconds) % TIME_PERIOD;
         }
     }
@@ -437,6 +480,10 @@ impl App {
         (&mut self.pointers, pick)
     }
 }
+
+mod hint;
+pub mod photo;
+mod walkway;
 
 #[cfg(test)]
 mod tests;

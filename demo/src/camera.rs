@@ -92,7 +92,7 @@ const FIELD_OF_VIEW: f32 = 0.60;
 const EASE_RATE: f32 = 9.0;
 /// Angle of a drag across the height of the screen [rad].
 const DRAG_ANGLE: f32 = 3.6;
-/// Time without input after which the camera starts to drift [s].
+/// Time after the last input after which the camera starts to drift [s].
 const IDLE_SECONDS: f32 = 6.0;
 
 /// Pose in spherical coordinates around the target.
@@ -111,6 +111,8 @@ pub struct Camera {
     goal: OrbitPose,
     idle: f32,
     drift: bool,
+    /// Whether there was no input yet.
+    is_fresh: bool,
     free: FreeArea,
     /// Where the target is on the screen, in normalised device coordinates.
     shift: Vec2,
@@ -144,14 +146,21 @@ impl Camera {
             goal: place,
             idle: 0.0,
             drift: true,
+            is_fresh: true,
             free: FreeArea::default(),
             shift: Vec2::ZERO,
         }
     }
 
+    /// Ends the drift because of an input; it begins again some time after the last one.
+    pub fn note_input(&mut self) {
+        (self.is_fresh, self.idle) = (false, 0.0);
+    }
+
     /// Orbits by a drag, in screen heights; right and down are positive.
     pub fn orbit(&mut self, drag: Vec2) {
         if drag.is_finite() {
+            self.note_input();
             self.goal.azimuth -= drag.x * DRAG_ANGLE;
             self.goal.polar -= drag.y * DRAG_ANGLE * 0.6;
             self.clamp_goal();
@@ -161,6 +170,7 @@ impl Camera {
     /// Multiplies the distance to the target by `factor`.
     pub fn zoom(&mut self, factor: f32) {
         if factor.is_finite() && factor > 0.0 {
+            self.note_input();
             self.goal.radius *= factor;
             self.clamp_goal();
         }
@@ -186,20 +196,25 @@ impl Camera {
 
     /// Moves the camera to the start pose of another rig, without easing.
     pub fn reset_to_rig(&mut self, rig: CameraRig, aspect: f32) {
-        *self = Self { drift: self.drift, free: self.free, ..Self::new(rig) };
+        let Self { drift, is_fresh, free, .. } = *self;
+        *self = Self { drift, is_fresh, free, ..Self::new(rig) };
         self.fit_to_aspect(aspect);
     }
 
-    /// Sets whether the camera drifts slowly after some time without input.
+    /// Sets whether the camera drifts slowly until the first input, and some time after the last.
     pub fn set_drift(&mut self, drift: bool) {
         self.drift = drift;
     }
 
     /// Eases towards the goal for `dt` [s]; `touched` says whether a pointer is down.
     pub fn advance(&mut self, dt: f32, touched: bool) {
-        self.idle = if touched { 0.0 } else { self.idle + dt };
-        if self.drift && self.idle > IDLE_SECONDS {
-            let time = self.idle - IDLE_SECONDS;
+        self.idle += dt;
+        if touched {
+            self.note_input();
+        }
+        let wait = if self.is_fresh { 0.0 } else { IDLE_SECONDS };
+        if self.drift && self.idle > wait {
+            let time = self.idle - wait;
             // The drift starts at rest and swings to both sides of the last pose.
             self.goal.azimuth += 0.035 * (0.25 * time).cos() * time.min(1.0) * dt;
         }
@@ -335,6 +350,28 @@ mod tests {
             last = radius;
         }
         assert!((last - 0.7 * start).abs() < 1.0e-3);
+    }
+
+    #[test]
+    fn the_camera_drifts_slowly_until_the_first_input_and_not_where_drift_is_off() {
+        let azimuth = |camera: &Camera| camera.goal.azimuth;
+        let second = |camera: &mut Camera| (0..60).for_each(|_| camera.advance(1.0 / 60.0, false));
+        let mut camera = Camera::default();
+        let start = azimuth(&camera);
+        second(&mut camera);
+        second(&mut camera);
+        let drifted = (azimuth(&camera) - start).abs();
+        assert!(drifted > 0.03 && drifted < 0.1, "it turned by {drifted} rad");
+        camera.note_input();
+        let still = azimuth(&camera);
+        (0..5).for_each(|_| second(&mut camera));
+        assert_eq!(azimuth(&camera), still);
+        (0..3).for_each(|_| second(&mut camera));
+        assert_ne!(azimuth(&camera), still, "it does not drift again");
+        let mut camera = Camera::default();
+        camera.set_drift(false);
+        second(&mut camera);
+        assert_eq!(azimuth(&camera), start);
     }
 
     #[test]

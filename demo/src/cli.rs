@@ -30,8 +30,8 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to 
                       are a second
     --orbit X,Y       drag the camera, in heights of the screen (0,0, or as a gesture is seen best)
     --zoom F          multiply the camera's distance (1, or the same)
-  --scene NAME        sheet, flag, ball, discs, curtain, figure or tender, or their numbers
-                      from 0; with tender:
+  --scene NAME        sheet, flag, ball, discs, curtain, figure, glass, doorway, storm or
+                      tender, or their numbers from 0; with tender:
     --wind            it blows
     --brief           links as the brief lays them, not real paper
     --small           24 x 36 particles, as on small screens
@@ -237,10 +237,11 @@ mod tests {
             ("--scene=sheet", 0.0),
             ("--scene curtain", 4.0),
             ("--scene figure", 5.0),
+            ("--scene storm", 8.0),
         ] {
             assert_eq!(parsed(line), Ok(Task::ClothWindow(vec![("scene", place)])));
         }
-        for line in ["--scene tender --wind --small", "--wind --scene=6 --small"] {
+        for line in ["--scene tender --wind --small", "--wind --scene=9 --small"] {
             let Ok(Task::ReceiptWindow(receipt)) = parsed(line) else { panic!("{line}") };
             assert!(receipt.settings.wind && receipt.small);
         }
@@ -276,7 +277,7 @@ mod tests {
             ("--shot a.png --strip 0", "--strip"),
             ("--sail", "--sail"),
             ("--scene rug", "--scene"),
-            ("--scene 7", "--scene"),
+            ("--scene 10", "--scene"),
             ("--scene tender --gravity 3", "--gravity"),
             ("--scene tender --shot a.png --play tear", "--play"),
             ("--reset", "--reset"),

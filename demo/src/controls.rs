@@ -74,6 +74,8 @@ pub enum Action {
     Reset,
     /// Unpins all particles.
     DropPins,
+    /// Begins or ends the photo mode.
+    Photo,
 }
 
 const PINNINGS: [Pinning; 3] = [Pinning::TopEdge, Pinning::TopCorners, Pinning::Corners];
@@ -229,6 +231,13 @@ pub static CONTROLS: &[Control] = &[
         key: 'X',
         kind: Kind::Button(Action::DropPins),
     },
+    Control {
+        name: "photo",
+        label: "Photo",
+        about: "Holds time, hides the panel, saves a large picture",
+        key: 'O',
+        kind: Kind::Button(Action::Photo),
+    },
 ];
 
 /// Finds a control by its name.
@@ -279,10 +288,13 @@ impl Control {
         match self.name {
             "fabric" => settings.scene != SceneKind::Discs,
             "resolution" => settings.scene != SceneKind::Figure,
-            "pinning" => matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag),
-            "drop" => {
-                matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag | SceneKind::Curtain)
+            "pinning" => {
+                matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag | SceneKind::Storm)
             }
+            "drop" => !matches!(
+                settings.scene,
+                SceneKind::Ball | SceneKind::Discs | SceneKind::Figure | SceneKind::Glass
+            ),
             _ => true,
         }
     }
@@ -433,6 +445,8 @@ mod tests {
         assert!(is_enabled("pinning", SceneKind::Flag) && !is_enabled("pinning", SceneKind::Ball));
         assert!(is_enabled("drop", SceneKind::Curtain) && !is_enabled("drop", SceneKind::Discs));
         assert!(is_enabled("fabric", SceneKind::Figure));
+        assert!(is_enabled("pinning", SceneKind::Storm) && is_enabled("drop", SceneKind::Doorway));
+        assert!(!is_enabled("drop", SceneKind::Glass));
         for name in ["resolution", "pinning", "drop"] {
             assert!(!is_enabled(name, SceneKind::Figure), "{name}");
         }

@@ -1,4 +1,5 @@
-//! Pointers (mouse and fingers) on a cloth scene: each one grabs cloth, orbits the camera or cuts.
+//! Pointers (mouse and fingers) on a cloth scene: each one grabs cloth, orbits the camera, cuts, or
+//! walks a person.
 //!
 //! Method: a press picks the nearest cloth by a ray. A grabbed patch then moves in the plane
 //! through it that is parallel to the screen.
@@ -28,6 +29,8 @@ enum Hold {
     Cloth(usize, PatchGrab),
     Camera,
     Blade(Swipe),
+    /// Walks a person to where the pointer is.
+    Walker,
 }
 
 #[derive(Debug)]
@@ -145,8 +148,41 @@ impl Pointers {
         match pointer.hold {
             Hold::Cloth(cloth, hand) => hand.release(&mut pick.cloths[cloth]),
             Hold::Blade(mut swipe) => swipe.cut_to(pointer.at, true, pick),
-            Hold::Camera => Ok(()),
+            Hold::Camera | Hold::Walker => Ok(()),
         }
+    }
+
+    /// Handles the release of all pressed pointers.
+    ///
+    /// # Errors
+    /// As [`Cloth::release`].
+    pub fn lift_all(&mut self, pick: &mut PickContext<'_>) -> Result<()> {
+        while let Some(id) = self.down.first().map(|pointer| pointer.id) {
+            self.lift(id, pick)?;
+        }
+        Ok(())
+    }
+
+    /// Handles a pressed pointer that orbits the camera, whatever is under it.
+    pub fn press_camera(&mut self, id: u32, at: Vec2) {
+        self.down.push(Pointer { id, at, hold: Hold::Camera });
+    }
+
+    /// Handles a pressed pointer that walks a person.
+    pub fn press_walker(&mut self, id: u32, at: Vec2) {
+        self.down.push(Pointer { id, at, hold: Hold::Walker });
+    }
+
+    /// Returns where the mouse is while no pointer is pressed [px].
+    pub fn hover(&self) -> Option<Vec2> {
+        self.hover.filter(|_| self.down.is_empty())
+    }
+
+    /// Returns where a person is to walk: to a pointer that was pressed for it, or to the mouse
+    /// while nothing is pressed.
+    pub fn walker_target(&self) -> Option<Vec2> {
+        let held = self.down.iter().find(|p| matches!(p.hold, Hold::Walker)).map(|p| p.at);
+        held.or(self.hover())
     }
 
     /// Removes the hover position: the mouse has left the screen.
@@ -193,7 +229,7 @@ impl Pointers {
     /// # Errors
     /// As [`Cloth::raycast`].
     pub fn cursor(&self, pick: &mut PickContext<'_>) -> Result<Cursor> {
-        if self.down.iter().any(|p| matches!(p.hold, Hold::Cloth(..))) {
+        if self.down.iter().any(|p| matches!(p.hold, Hold::Cloth(..) | Hold::Walker)) {
             return Ok(Cursor::Grabbing);
         }
         if pick.blade || self.down.iter().any(|p| matches!(p.hold, Hold::Blade(_))) {

@@ -1,12 +1,13 @@
-//! Scene setup: builds the cloths of a scene, applies the settings to them, and lists the solids to
-//! draw.
+//! Scene setup: builds the cloths of a scene, and applies the settings to them.
 //!
 //! Method: the descriptors of `muslin_scenes` with the fabric, resolution and pinning of
-//! [`Settings`]; some colliders are drawn slightly smaller than their collision shape.
+//! [`Settings`].
 //!
 //! Reads [`Settings`]; writes a [`SceneInstance`].
 //!
 //! Invariant: clamped settings always build a scene.
+
+pub mod solids;
 
 use std::f32::consts::TAU;
 
@@ -14,12 +15,14 @@ use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, SelfCollision, Wind};
 use muslin_scenes::disc::Disc;
 use muslin_scenes::figure::garments::SKIRT_SPAN;
-use muslin_scenes::{Curtain, Drapes, Figure, Flag, HangingSheet, SceneInstance, SheetOnBall};
+use muslin_scenes::{
+    Curtain, Doorway, Drapes, Figure, Flag, GlassBalls, HangingSheet, SceneInstance, SheetOnBall,
+    TornFlag,
+};
 
 use crate::camera::CameraRig;
 use crate::fabric::{self, Appearance, Fabric};
 use crate::render::light::FLOOR;
-use crate::render::solid::Solid;
 use crate::scene_kind::SceneKind;
 use crate::settings::{Pinning, Settings};
 
@@ -27,15 +30,16 @@ use crate::settings::{Pinning, Settings};
 const SHEET_WIND: f32 = 1.3;
 /// Air speed of the flag at wind 1 [m/s].
 const FLAG_WIND: f32 = 7.0;
-/// Air speed of the sheet on the ball and of the curtain at wind 1 [m/s].
+/// Air speed of the torn flag at wind 1 [m/s].
+const STORM_WIND: f32 = 16.0;
+/// Speed of falling rain [m/s].
+const RAIN: f32 = 7.0;
+/// Air speed of draped sheets and of curtains at wind 1 [m/s].
 const DRAPED_WIND: f32 = 0.6;
 /// Air speed of the discs at wind 1 [m/s].
 const DISC_WIND: f32 = 0.25;
 /// Height of the floor collider over the drawn floor, which avoids z-fighting [m].
 const CLEARANCE: f32 = 0.006;
-/// Difference between the collision radius and the drawn radius of the ball: the triangles of the
-/// cloth cut the corners of the round shape [m].
-const BALL_INSET: f32 = 0.009;
 /// Distance between neighbouring particles of the clothes, on average [m].
 const GARMENT_SPACING: f32 = 0.04;
 /// Fabrics of the discs.
@@ -46,23 +50,18 @@ const SETTLING_TICKS: u32 = 110;
 const SETTLING_WORK: u32 = 180_000;
 /// Factor of the wind in the gust before the first frame.
 const GUST: f32 = 1.9;
-/// Least distance between the rings of the sheet [m].
-const RING_GAP: f32 = 0.09;
 /// Most particles of a sheet that keeps from itself in real time, also on a page, and the distance
 /// between its layers [m].
 const MAX_SELF_COLLIDING: u32 = 2500;
 const SELF_DISTANCE: f32 = 0.004;
-/// Colour of knobs and rings.
-const BRASS: u32 = 0xd9a04a;
-/// Radius of the flag pole [m].
-const POLE_RADIUS: f32 = 0.016;
 
 /// Returns the numbers of particles across and down; `None` for discs and clothes, which are no grid.
 pub fn grid_size(settings: &Settings) -> Option<[u32; 2]> {
     match settings.scene {
-        SceneKind::Sheet | SceneKind::Ball => Some([settings.resolution; 2]),
-        SceneKind::Flag => Some(Flag::grid_size(settings.resolution)),
+        SceneKind::Sheet | SceneKind::Ball | SceneKind::Glass => Some([settings.resolution; 2]),
+        SceneKind::Flag | SceneKind::Storm => Some(Flag::grid_size(settings.resolution)),
         SceneKind::Curtain => Some(Curtain::grid_size(settings.resolution)),
+        SceneKind::Doorway => Some(Doorway::grid_size(settings.resolution)),
         SceneKind::Discs | SceneKind::Figure => None,
     }
 }
@@ -83,6 +82,7 @@ pub fn appearances(settings: &Settings) -> Vec<Appearance> {
             let skirt = fabric::skirt(settings.fabric);
             vec![skirt, fabric::shirt(), fabric::mannequin(), skirt]
         }
+        SceneKind::Doorway => vec![settings.fabric.appearance(); 2],
         _ => vec![settings.fabric.appearance()],
     }
 }
@@ -91,7 +91,20 @@ pub fn appearances(settings: &Settings) -> Vec<Appearance> {
 pub fn camera_rig(scene: SceneKind) -> CameraRig {
     let usual = CameraRig::default();
     match scene {
-        SceneKind::Sheet | SceneKind::Flag | SceneKind::Ball => usual,
+        SceneKind::Sheet | SceneKind::Flag | SceneKind::Ball | SceneKind::Storm => usual,
+        SceneKind::Glass => CameraRig {
+            target: Vec3::new(0.05, -0.82, 0.1),
+            radius: 1.5..=12.0,
+            start: [0.30, 1.24, 3.9],
+            half_width: 1.35,
+            ..usual
+        },
+        SceneKind::Doorway => CameraRig {
+            target: Vec3::new(0.0, -0.40, 0.0),
+            start: [0.58, 1.22, 5.1],
+            half_width: 1.35,
+            ..usual
+        },
         SceneKind::Discs => CameraRig {
             target: Vec3::new(0.0, -0.78, 0.0),
             radius: 1.5..=12.0,
@@ -115,12 +128,20 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
     }
 }
 
+/// Returns the velocity of the rain [m/s], in the scene that has some.
+pub fn rain(settings: &Settings) -> Option<Vec3> {
+    let wind = TornFlag::wind(STORM_WIND * settings.wind).velocity;
+    (settings.scene == SceneKind::Storm).then(|| 0.7 * wind + Vec3::NEG_Y * RAIN)
+}
+
 /// Returns the distance between neighbouring particles [m].
 pub fn spacing(settings: &Settings) -> f32 {
     let across = match settings.scene {
         SceneKind::Sheet => HangingSheet::SIZE,
-        SceneKind::Flag => Flag::SIZE.x,
+        SceneKind::Flag | SceneKind::Storm => Flag::SIZE.x,
         SceneKind::Ball => SheetOnBall::SIZE,
+        SceneKind::Glass => GlassBalls::SIZE,
+        SceneKind::Doorway => return Doorway::spacing(settings.resolution),
         SceneKind::Curtain => Curtain::SIZE.x,
         SceneKind::Discs => return Drapes::RADIUS / Disc::rings(across_disc(settings)) as f32,
         SceneKind::Figure => return GARMENT_SPACING,
@@ -138,99 +159,6 @@ pub fn span(settings: &Settings) -> Vec2 {
     size.map_or(Vec2::splat(2.0 * Drapes::RADIUS), Vec2::from) / unit(settings.scene)
 }
 
-/// Returns the solids to draw: supports and obstacles of the cloth.
-pub fn solids(settings: &Settings, instance: &SceneInstance) -> Vec<Solid> {
-    match settings.scene {
-        SceneKind::Sheet => hanger(settings),
-        SceneKind::Figure => Vec::new(),
-        SceneKind::Ball => {
-            let centre = SheetOnBall::CENTRE;
-            let radius = SheetOnBall::RADIUS - BALL_INSET;
-            let foot = centre.with_y(FLOOR);
-            vec![
-                Solid::sphere(centre, radius, 0x6f7f9c),
-                Solid::capsule(foot, centre, 0.09, 0x4a5264),
-            ]
-        }
-        SceneKind::Flag => {
-            let foot = Vec3::new(Flag::HOIST.x - POLE_RADIUS, FLOOR, 0.0);
-            let top = foot.with_y(Flag::HOIST.y + 0.09);
-            let pole = Solid::capsule(foot, top, POLE_RADIUS, 0x8d93a3);
-            vec![pole, Solid::sphere(top + Vec3::Y * 0.02, 0.034, BRASS)]
-        }
-        SceneKind::Discs => Drapes::CENTRES.iter().flat_map(|place| pedestal(*place)).collect(),
-        SceneKind::Curtain => {
-            let ball = instance
-                .ball()
-                .map(|(centre, radius)| Solid::sphere(centre, radius - BALL_INSET, 0xc9563f));
-            ball.into_iter().chain(rod()).collect()
-        }
-    }
-}
-
-/// A pedestal, drawn slightly smaller than its collision shape.
-fn pedestal(place: Vec3) -> [Solid; 2] {
-    let top = place / Drapes::UNIT - Vec3::Y * 0.004;
-    let radius = Drapes::PEDESTAL / Drapes::UNIT - 0.006;
-    let foot = top.with_y(FLOOR);
-    [
-        Solid::cylinder(foot, top, radius, 0.012, 0x8b8f9c),
-        Solid::cylinder(foot, foot + Vec3::Y * 0.05, radius + 0.04, 0.012, 0x5c6270),
-    ]
-}
-
-/// The rod that the sheet hangs from on two wires, with a ring and a clip wherever the sheet passes
-/// below it; none for a sheet that all corners hold.
-fn hanger(settings: &Settings) -> Vec<Solid> {
-    let pleats = pleats(settings);
-    let last = pleats.len() - 1;
-    let is_below = |i: &usize| match settings.pinning {
-        Pinning::TopEdge => *i == 0 || *i == last || pleats[*i].y * pleats[*i + 1].y <= 0.0,
-        _ => *i == 0 || *i == last,
-    };
-    if settings.pinning == Pinning::Corners {
-        return Vec::new();
-    }
-    let top = Vec3::Y * (0.5 * HangingSheet::SIZE);
-    let half = Vec3::X * (pleats[last].x + 0.10);
-    let rod = top + Vec3::Y * 0.05;
-    let mut solids = vec![Solid::capsule(rod - half, rod + half, 0.010, BRASS)];
-    for end in [rod - half, rod + half] {
-        solids.push(Solid::sphere(end, 0.021, BRASS));
-        let wire = end * 0.94;
-        solids.push(Solid::capsule(wire.with_y(rod.y), wire.with_y(4.5), 0.0025, 0x8d93a3));
-    }
-    let mut rings: Vec<_> = (0..=last).filter(is_below).map(|i| pleats[i]).collect();
-    rings.dedup_by(|next, ring| next.x - ring.x < RING_GAP);
-    for place in rings {
-        let (on_rod, across) = (rod.with_x(place.x), Vec3::X * 0.005);
-        solids.push(Solid::cylinder(on_rod - across, on_rod + across, 0.019, 0.004, BRASS));
-        let clip = top + Vec3::new(place.x, -0.012, place.y);
-        solids.push(Solid::capsule(on_rod, clip, 0.0045, BRASS));
-    }
-    solids
-}
-
-/// The curtain rod on two stands, with a ring and a clip for each held point.
-fn rod() -> Vec<Solid> {
-    let half = Vec3::X * (0.5 * Curtain::WIDTH + 0.13);
-    let (from, to) = (Curtain::ROD - half, Curtain::ROD + half);
-    let mut solids = vec![Solid::capsule(from, to, 0.017, 0x8d93a3)];
-    for end in [from, to] {
-        let foot = end.with_y(FLOOR);
-        solids.push(Solid::sphere(end, 0.036, BRASS));
-        solids.push(Solid::capsule(foot, end, 0.018, 0x8d93a3));
-        solids.push(Solid::cylinder(foot, foot + Vec3::Y * 0.03, 0.16, 0.01, 0x4a5264));
-    }
-    for ring in Curtain::ring_positions() {
-        let across = Vec3::X * 0.007;
-        let on_rod = ring.with_y(Curtain::ROD.y).with_z(0.0);
-        solids.push(Solid::cylinder(on_rod - across, on_rod + across, 0.028, 0.006, BRASS));
-        solids.push(Solid::capsule(on_rod - Vec3::Y * 0.026, ring, 0.006, BRASS));
-    }
-    solids
-}
-
 /// Builds the cloths of the scene over a floor, with the settings applied.
 ///
 /// # Errors
@@ -245,6 +173,11 @@ pub fn build(settings: &Settings, reduced_motion: bool) -> Result<SceneInstance>
             add_floor(&mut curtain)?;
             SceneInstance::with_ball(curtain, Curtain::BALL)?
         }
+        SceneKind::Doorway => {
+            let mut desc = Doorway::desc(settings.resolution);
+            desc.material = settings.fabric.material();
+            Doorway::hang(&desc, CLEARANCE)?
+        }
         SceneKind::Figure => figure(settings)?,
         _ => SceneInstance::from(sheet(settings)?),
     };
@@ -252,11 +185,12 @@ pub fn build(settings: &Settings, reduced_motion: bool) -> Result<SceneInstance>
     Ok(instance)
 }
 
-/// Builds the cloth of a scene with one grid: sheet, flag or ball.
+/// Builds the cloth of a scene with one grid: sheet, flag, torn flag, or a sheet on balls.
 fn sheet(settings: &Settings) -> Result<Cloth> {
     let mut desc = match settings.scene {
-        SceneKind::Flag => Flag::desc(settings.resolution),
+        SceneKind::Flag | SceneKind::Storm => Flag::desc(settings.resolution),
         SceneKind::Ball => SheetOnBall::desc(settings.resolution),
+        SceneKind::Glass => GlassBalls::desc(settings.resolution),
         _ => HangingSheet::desc(settings.resolution, pin_mode(settings.pinning)),
     };
     desc.material = settings.fabric.material();
@@ -267,14 +201,18 @@ fn sheet(settings: &Settings) -> Result<Cloth> {
         desc.settings.self_distance = SELF_DISTANCE;
     }
     let mut cloth = match settings.scene {
-        SceneKind::Flag => Flag::hoist(&desc, settings.pinning != Pinning::TopEdge)?,
+        SceneKind::Flag | SceneKind::Storm => {
+            Flag::hoist(&desc, settings.pinning != Pinning::TopEdge)?
+        }
         _ => Cloth::grid(&desc)?,
     };
     add_floor(&mut cloth)?;
-    if settings.scene == SceneKind::Ball {
-        SheetOnBall::add_ball(&mut cloth)?;
-    } else {
-        fold_at_start(&mut cloth, settings)?;
+    match settings.scene {
+        SceneKind::Ball => SheetOnBall::add_ball(&mut cloth)?,
+        SceneKind::Glass => GlassBalls::add_balls(&mut cloth)?,
+        // The rips are cut while the flag is flat, and the wind folds it.
+        SceneKind::Storm => TornFlag::rip(&mut cloth)?,
+        _ => fold_at_start(&mut cloth, settings)?,
     }
     Ok(cloth)
 }
@@ -360,7 +298,7 @@ fn pleats(settings: &Settings) -> Vec<Vec2> {
     curve.iter().map(|place| *place + start).collect()
 }
 
-/// Runs the ticks before the first frame, so that sheet and flag do not start in the folds that
+/// Runs the ticks before the first frame, so that sheet and flags do not start in the folds that
 /// they were made with; they end in a gust. With `reduced_motion` there is none.
 ///
 /// # Errors
@@ -370,7 +308,7 @@ pub fn settle(
     settings: &Settings,
     reduced_motion: bool,
 ) -> Result<()> {
-    if !matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag) {
+    if !matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag | SceneKind::Storm) {
         return Ok(());
     }
     // Self-collision would take most of the time here, and hardly changes the drape.
@@ -402,7 +340,7 @@ pub fn drop_self_collision(instance: &mut SceneInstance, settings: &Settings) ->
 }
 
 /// Applies the settings to all cloths; `reduced_motion` weakens gusts, wander and turbulence of the
-/// wind.
+/// wind, and lets the walker stand until it is sent somewhere.
 ///
 /// # Errors
 /// As [`Cloth::set_settings`] and [`Cloth::set_wind`]; clamped settings cause none.
@@ -411,6 +349,9 @@ pub fn apply_settings(
     settings: &Settings,
     reduced_motion: bool,
 ) -> Result<()> {
+    if let Some(walker) = instance.walker_mut() {
+        walker.set_restless(!reduced_motion);
+    }
     instance
         .cloths
         .iter_mut()
@@ -433,9 +374,12 @@ fn apply_settings_to(cloth: &mut Cloth, settings: &Settings, reduced_motion: boo
     let wind = match settings.scene {
         SceneKind::Sheet => HangingSheet::wind(SHEET_WIND * settings.wind),
         SceneKind::Flag => Flag::wind(FLAG_WIND * settings.wind),
-        SceneKind::Ball => SheetOnBall::wind(DRAPED_WIND * settings.wind),
+        SceneKind::Storm => TornFlag::wind(STORM_WIND * settings.wind),
+        SceneKind::Ball | SceneKind::Glass => SheetOnBall::wind(DRAPED_WIND * settings.wind),
         SceneKind::Discs => SheetOnBall::wind(DISC_WIND * settings.wind),
-        SceneKind::Curtain | SceneKind::Figure => HangingSheet::wind(DRAPED_WIND * settings.wind),
+        SceneKind::Curtain | SceneKind::Doorway | SceneKind::Figure => {
+            HangingSheet::wind(DRAPED_WIND * settings.wind)
+        }
     };
     cloth.set_wind(Wind {
         gust: wind.gust * restless,
@@ -468,7 +412,9 @@ mod tests {
                 for (start, cloth) in start.iter().zip(&instance.cloths) {
                     let grid = grid_size(&settings).map(|[columns, rows]| columns * rows);
                     let count = cloth.particle_count();
-                    assert_eq!(count, grid.unwrap_or(count));
+                    // Rips split particles.
+                    let is_torn = scene == SceneKind::Storm;
+                    assert_eq!(count > grid.unwrap_or(count), is_torn, "{scene:?} has {count}");
                     let moved = start.iter().zip(cloth.positions()).map(|(a, b)| a.distance(*b));
                     let farthest = moved.fold(0.0, f32::max);
                     assert!(farthest > 0.002 && farthest < 0.6, "{scene:?} moved {farthest} m");

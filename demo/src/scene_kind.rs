@@ -29,21 +29,37 @@ pub enum SceneKind {
     Curtain,
     /// A walking figure in a skirt and a shirt.
     Figure,
+    /// A sheet that falls on balls of glass.
+    Glass,
+    /// A curtain that the pointer walks a person through.
+    Doorway,
+    /// A torn flag in a storm.
+    Storm,
 }
 
 impl SceneKind {
     /// All scenes, in the order of the panel.
-    pub const ALL: [Self; 6] =
-        [Self::Sheet, Self::Flag, Self::Ball, Self::Discs, Self::Curtain, Self::Figure];
+    pub const ALL: [Self; 9] = [
+        Self::Sheet,
+        Self::Flag,
+        Self::Ball,
+        Self::Discs,
+        Self::Curtain,
+        Self::Figure,
+        Self::Glass,
+        Self::Doorway,
+        Self::Storm,
+    ];
     /// Names on the panel.
-    pub const NAMES: [&'static str; 6] = ["Sheet", "Flag", "Ball", "Discs", "Curtain", "Figure"];
+    pub const NAMES: [&'static str; 9] =
+        ["Sheet", "Flag", "Ball", "Discs", "Curtain", "Figure", "Glass", "Doorway", "Storm"];
 
     /// Returns the fabric that the scene starts with.
     pub fn fabric(self) -> Fabric {
         match self {
-            Self::Sheet | Self::Discs | Self::Curtain => Fabric::Silk,
-            Self::Flag => Fabric::Flag,
-            Self::Ball | Self::Figure => Fabric::Cotton,
+            Self::Sheet | Self::Discs | Self::Curtain | Self::Glass => Fabric::Silk,
+            Self::Flag | Self::Storm => Fabric::Flag,
+            Self::Ball | Self::Figure | Self::Doorway => Fabric::Cotton,
         }
     }
 }

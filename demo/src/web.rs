@@ -101,6 +101,12 @@ impl Demo {
         self.app.key(key, shift).map_err(js_error)
     }
 
+    /// Ends the drift of the camera: there was an input.
+    #[wasm_bindgen(js_name = noteInput)]
+    pub fn note_input(&mut self) {
+        self.app.camera().note_input();
+    }
+
     /// Sets whether the user prefers reduced motion.
     #[wasm_bindgen(js_name = setReducedMotion)]
     pub fn set_reduced_motion(&mut self, reduced_motion: bool) -> Result<(), JsError> {
@@ -154,6 +160,11 @@ impl Demo {
         Box::new(self.app.camera().view().eye.to_array())
     }
 
+    /// Returns the position of the walker [m]; nothing in scenes without one.
+    pub fn walker(&self) -> Box<[f32]> {
+        self.app.walker().map_or_else(Box::default, |at| Box::new(at.to_array()))
+    }
+
     /// Sets whether the key for the blade is held.
     #[wasm_bindgen(js_name = holdBlade)]
     pub fn hold_blade(&mut self, out: bool) {
@@ -174,6 +185,35 @@ impl Demo {
             self.app.draw(renderer, &screen).map_err(js_error)?;
         }
         Ok(())
+    }
+
+    /// Returns whether the photo mode is on.
+    #[wasm_bindgen(js_name = isPhoto)]
+    pub fn is_photo(&self) -> bool {
+        self.app.is_photo()
+    }
+
+    /// Begins or ends the photo mode.
+    #[wasm_bindgen(js_name = setPhoto)]
+    pub fn set_photo(&mut self, on: bool) -> Result<(), JsError> {
+        self.app.set_photo(on).map_err(js_error)
+    }
+
+    /// Returns width and height of the pictures [px].
+    #[wasm_bindgen(js_name = photoSize)]
+    pub fn photo_size(&self) -> Box<[u32]> {
+        Box::new(self.app.photo_size())
+    }
+
+    /// Takes a picture: red, green, blue and alpha of each pixel, from the top row. Nothing while
+    /// the context is lost.
+    #[wasm_bindgen(js_name = takePhoto)]
+    pub fn take_photo(&mut self) -> Result<Option<Box<[u8]>>, JsError> {
+        let Some(renderer) = &mut self.renderer else {
+            return Ok(None);
+        };
+        let photo = self.app.take_photo(renderer).map_err(js_error)?;
+        Ok(Some(photo.pixels.into_flattened().into()))
     }
 
     /// Returns the numbers of the panel as JSON.

@@ -106,6 +106,32 @@ fn a_cut_sheet_is_drawn_without_gaps_after_slow_frames_lower_its_detail() {
 }
 
 #[test]
+fn a_photo_shows_the_screen_at_four_thousand_pixels() {
+    let headless = Headless::new().unwrap_or_else(|error| panic!("{error}"));
+    let mut app = App::new(Settings::default(), || 0.0).unwrap();
+    app.resize(glam::Vec2::new(320.0, 180.0));
+    app.set_photo(true).unwrap();
+    let mut renderer = Renderer::new(&headless.context).unwrap();
+    let canvas = OffscreenCanvas::new(&headless.context, 320, 180);
+    let screen = |app: &mut App, renderer: &mut Renderer| {
+        app.draw(renderer, &canvas.target()).unwrap();
+        canvas.pixels()
+    };
+    let before = screen(&mut app, &mut renderer);
+    let photo = app.take_photo(&mut renderer).unwrap();
+    assert_eq!((photo.size, photo.pixels.len()), ([3840, 2160], 3840 * 2160));
+    assert!(screen(&mut app, &mut renderer) == before, "the photo changed the screen");
+    // The mean of each square of 12 x 12 pixels is the pixel of the screen.
+    let mean = |x: usize, y: usize| {
+        let square = (0..144).map(|i| photo.pixels[(12 * y + i / 12) * 3840 + 12 * x + i % 12]);
+        square.map(|pixel| u32::from(pixel[1])).sum::<u32>() / 144
+    };
+    let off = (0..320 * 180).map(|i| mean(i % 320, i / 320).abs_diff(u32::from(before[i][1])));
+    let mean_off = off.sum::<u32>() as f32 / (320.0 * 180.0);
+    assert!(mean_off < 3.0, "the photo differs from the screen by {mean_off} of 255");
+}
+
+#[test]
 fn the_frames_of_a_film_strip_differ() {
     let settings = Settings::default();
     for gesture in [Gesture::Yank, Gesture::Cut] {
@@ -150,6 +176,50 @@ fn discs_and_curtain_are_visible_on_the_stage() {
     assert!(cloth > 60.0, "the curtain's brightness is {cloth}");
     let later = take(&Shot { ticks: 140, settings: scene(SceneKind::Curtain), ..small() });
     assert!(difference(&curtain, &later) > 0.02, "the ball does not roll");
+}
+
+#[test]
+fn balls_of_glass_show_the_sheet_upside_down_and_gather_light_on_the_floor() {
+    let settings = Settings { scene: SceneKind::Glass, ..Settings::default() };
+    let picture = take(&Shot { size: [640, 400], ticks: 90, settings, ..small() });
+    // The sheet is above and behind the front ball, and its image is low in it.
+    let ball = |y: f32| brightness(&picture, [0.41, 0.45], [y - 0.01, y + 0.01]);
+    let (upper, image) = (ball(0.66), ball(0.83));
+    assert!(image > 1.3 * upper, "the image has {image}, the glass above it {upper}");
+    let shadow = brightness(&picture, [0.565, 0.585], [0.785, 0.80]);
+    let caustic = brightness(&picture, [0.505, 0.525], [0.805, 0.825]);
+    assert!(caustic > 1.15 * shadow, "the caustic has {caustic}, the shadow {shadow}");
+}
+
+#[test]
+fn the_walker_parts_the_curtain_of_the_doorway() {
+    let settings = Settings { scene: SceneKind::Doorway, ..Settings::default() };
+    let settings = Settings { fabric: settings.scene.fabric(), ..settings };
+    let shot = |ticks| take(&Shot { ticks, settings: settings.clone(), ..small() });
+    let (closed, parted) = (shot(40), shot(150));
+    let bright = |picture: &Picture| {
+        picture.rgb.chunks_exact(3).filter(|p| p.iter().all(|c| *c > 110)).count()
+    };
+    assert!(bright(&closed) > 3000, "{} pixels of cotton", bright(&closed));
+    assert!(difference(&closed, &parted) > 0.05, "nobody walks through");
+}
+
+#[test]
+fn the_torn_flag_whips_in_the_rain() {
+    let settings = Settings { scene: SceneKind::Storm, ..Settings::default() };
+    let settings = Settings { fabric: settings.scene.fabric(), ..settings };
+    let shot = |ticks| take(&Shot { ticks, settings: settings.clone(), ..small() });
+    let (first, later) = (shot(60), shot(66));
+    let flag = first.rgb.chunks_exact(3).filter(|p| p[0] > 150 && p[2] < 90).count();
+    assert!(flag > 700, "{flag} pixels of the red stripe");
+    // Streaks of rain are brighter than the pixels beside them, where there is no flag.
+    let streaks = |picture: &Picture| {
+        let rows = picture.rgb.chunks_exact(3 * 320).skip(20).take(60);
+        let steps = rows.flat_map(|row| (5..90).map(|x| row[3 * x].abs_diff(row[3 * x - 3])));
+        steps.filter(|step| *step > 6).count()
+    };
+    assert!(streaks(&first) > 40, "{} streaks", streaks(&first));
+    assert!(difference(&first, &later) > 0.01, "the flag does not move");
 }
 
 #[test]

@@ -4,6 +4,7 @@
 import { by, context, fail, isFree, listenToHand, listenToPointers, loop, moveCamera, setPageState } from "./canvas.js";
 import init, { Demo } from "./muslin_demo.js";
 import { drawPanel } from "./panel.js";
+import { connectPhoto } from "./photo.js";
 
 const KEY = "cloth3d.settings.v1";
 const NARROW = matchMedia("(max-width: 640px)");
@@ -34,7 +35,7 @@ function saveSettings(settings) {
 
 function run(demo) {
   const saveNow = () => saveSettings(demo.settings());
-  const refresh = drawPanel(by("controls"), JSON.parse(Demo.controls()), {
+  const updatePanel = drawPanel(by("controls"), JSON.parse(Demo.controls()), {
     get: (name) => demo.get(name),
     text: (name) => demo.text(name),
     isEnabled: (name) => demo.isEnabled(name),
@@ -44,6 +45,13 @@ function run(demo) {
       saveNow();
     },
   });
+  const showPhoto = connectPhoto(demo, () => refresh());
+  const refresh = () => {
+    updatePanel();
+    showPhoto();
+    updateInsets();
+  };
+  const updateInsets = connectInsets(demo);
   openLink(demo);
   refresh();
   // The demo has corrected invalid values; this corrects them in the storage too.
@@ -58,6 +66,10 @@ function run(demo) {
     showReadout(JSON.parse(demo.readout()));
     if (by("stages").open) showStages(JSON.parse(demo.stageTimes()));
   });
+  // Any input ends the drift of the camera, also one to the panel.
+  for (const name of ["pointerdown", "keydown"]) {
+    addEventListener(name, () => demo.noteInput(), { capture: true });
+  }
   listenToPointers(canvas, demo, (event, x, y) => {
     if (event.pointerType === "mouse" && event.button !== 0) return false;
     demo.holdBlade(event.shiftKey);
@@ -72,7 +84,7 @@ function run(demo) {
   listenToHand(canvas, demo, () => middle(), (id, x, y) => demo.press(id, x, y));
   connectOverlays();
   for (const id of ["panel", "help", "ask"]) by(id).hidden = false;
-  connectInsets(demo);
+  updateInsets();
 
   window.muslinDemo = {
     stateHash: () => demo.stateHash(),
@@ -84,13 +96,16 @@ function run(demo) {
       return at && Array.from(at);
     },
     eye: () => Array.from(demo.eye()),
+    walker: () => Array.from(demo.walker()),
   };
   setPageState("running");
 }
 
-/** Applies choices of the address, such as `?scene=curtain&fabric=denim`. */
+/** Applies the scene of the page, and choices of the address, such as `?scene=curtain&fabric=denim`. */
 function openLink(demo) {
   const wanted = new URLSearchParams(location.search);
+  const { scene } = document.documentElement.dataset;
+  if (scene && !wanted.has("scene")) wanted.set("scene", scene);
   for (const { name, options = [] } of JSON.parse(Demo.controls())) {
     const option = options.findIndex((label) => label.toLowerCase() === wanted.get(name));
     if (option >= 0) demo.set(name, option);
@@ -152,6 +167,7 @@ function listenToKeys(demo, changed) {
 
 /** Returns how far overlays reach into the canvas from left and bottom. */
 function insets() {
+  if (document.body.classList.contains("photo")) return [0, 0];
   const isBeside = !NARROW.matches && !by("panel").classList.contains("closed");
   return [isBeside ? PANEL_WIDTH : 0, innerHeight < LOW ? 0 : by("help").offsetHeight + HELP_BOTTOM];
 }
@@ -162,6 +178,7 @@ function middle() {
   return [(left + innerWidth) / 2, (innerHeight - bottom) / 2];
 }
 
+/** Tells the demo what overlays leave free; returns a function that does so again. */
 function connectInsets(demo) {
   const update = () => {
     const [left, bottom] = insets();
@@ -169,7 +186,7 @@ function connectInsets(demo) {
   };
   addEventListener("resize", update);
   new MutationObserver(update).observe(by("panel"), { attributeFilter: ["class"] });
-  update();
+  return update;
 }
 
 function connectOverlays() {

@@ -9,6 +9,9 @@ const USE_SMALL_SHEET = navigator.maxTouchPoints > 0 || innerWidth < 768 || REDU
 /** Time that the instructions stay, and longest time between the presses of a double press [ms]. */
 const INSTRUCTIONS_MS = 3000;
 const DOUBLE_PRESS_MS = 350;
+/** Where the title and the instructions are above the paper, which hangs in the upper half anyway. */
+const NARROW = matchMedia("(max-width: 640px)");
+const PAPER_ABOVE_MIDDLE = 40;
 const canvas = by("stage");
 
 function run(receipt) {
@@ -16,6 +19,12 @@ function run(receipt) {
   const applyReducedMotion = () => receipt.setReducedMotion(REDUCED_MOTION.matches);
   REDUCED_MOTION.addEventListener("change", applyReducedMotion);
   applyReducedMotion();
+  const updateInsets = () => {
+    const top = NARROW.matches ? document.querySelector("header").getBoundingClientRect().bottom : 0;
+    receipt.setInsets(0, top, 0, top && PAPER_ABOVE_MIDDLE);
+  };
+  addEventListener("resize", updateInsets);
+  updateInsets();
   loop(canvas, receipt, () => showReadout(JSON.parse(receipt.readout())));
   listenToPointers(canvas, receipt, pressHandler(receipt));
   const middle = () => [innerWidth / 2, innerHeight / 2];
@@ -42,8 +51,10 @@ function run(receipt) {
 /** Creates the buttons of the table of controls; returns a function that updates them. */
 function drawButtons(receipt) {
   const table = JSON.parse(Receipt.controls());
-  const pills = table.filter(({ pill }) => pill).map((control) => {
+  const pills = table.map((control) => {
     const made = document.createElement("button");
+    // What has only a key needs a button where there is no keyboard.
+    if (!control.pill) made.className = "touch";
     made.type = "button";
     made.id = `control-${control.name}`;
     made.textContent = control.label;

@@ -2,7 +2,8 @@
 
 use crate::common::crossings::crossing_count;
 use muslin_scenes::{
-    Curtain, Drapes, Figure, Flag, HangingSheet, Receipt, Scene, SceneInstance, SheetOnBall,
+    Curtain, Doorway, Drapes, Figure, Flag, GlassBalls, HangingSheet, Receipt, Scene,
+    SceneInstance, SheetOnBall, TornFlag,
 };
 
 /// Runs a scene, asserts its check after 1, 5 and 20 seconds, and returns it.
@@ -98,4 +99,51 @@ fn the_motion_of_the_figure_does_not_depend_on_frame_lengths() {
         late.advance(ticks as f32 / 60.0 + 1.0e-5).unwrap();
     }
     assert_eq!(late.cloths[0].positions(), even.cloths[0].positions());
+}
+
+#[test]
+fn the_glass_balls_scene_passes_its_check_without_self_intersection() {
+    let scene = checked_scene::<GlassBalls>();
+    assert_eq!(crossing_count(&scene.cloths[0]), 0);
+}
+
+#[test]
+fn the_torn_flag_scene_passes_its_check() {
+    checked_scene::<TornFlag>();
+}
+
+#[test]
+fn the_panels_of_the_doorway_scene_part_around_the_walker_and_close_behind_it() {
+    checked_scene::<Doorway>();
+    let mut scene = Doorway::build();
+    // The distance between the inner edges at half height, largest in a round and at its end.
+    let [columns, rows] = Doorway::grid_size(40);
+    let gap = |scene: &SceneInstance| {
+        let row = rows / 2 * columns;
+        let left = scene.cloths[0].positions()[(row + columns - 1) as usize];
+        left.distance(scene.cloths[1].positions()[row as usize])
+    };
+    let mut widest = 0.0_f32;
+    for tick in 0..540 {
+        scene.step(1);
+        widest = widest.max(gap(&scene));
+        Doorway::check(&scene).unwrap_or_else(|what| panic!("after {tick} ticks: {what}"));
+    }
+    assert!(widest > 0.3, "the panels part by {widest} m at most");
+    scene.walker_mut().unwrap().walk_to(glam::Vec3::Z);
+    scene.step(300);
+    assert!(gap(&scene) < 0.15, "they stay {} m apart", gap(&scene));
+}
+
+#[test]
+fn the_walker_of_the_doorway_scene_does_not_depend_on_frame_lengths() {
+    let mut even = Doorway::build();
+    even.step(12);
+    let mut late = Doorway::build();
+    for ticks in [1, 4, 2, 5] {
+        late.advance(ticks as f32 / 60.0 + 1.0e-5).unwrap();
+    }
+    for (even, late) in even.cloths.iter().zip(&late.cloths) {
+        assert_eq!(late.positions(), even.positions());
+    }
 }

@@ -5,7 +5,9 @@ import { test } from "node:test";
 
 import {
   cameraPosition,
+  checkShareMetadata,
   distance,
+  hash,
   settings,
   stats,
   visit,
@@ -63,7 +65,7 @@ test("controls without an effect in a scene are disabled there", async () => {
     found.filter((one) => one.disabled).map((one) => one.id.replace("control-", "")),
   );
   const scenes = page.locator("#control-scene input");
-  for (const [scene, wanted] of [[3, ["fabric", "pinning", "drop"]], [4, ["pinning"]], [5, ["pinning", "resolution", "drop"]], [0, []]]) {
+  for (const [scene, wanted] of [[3, ["fabric", "pinning", "drop"]], [4, ["pinning"]], [5, ["pinning", "resolution", "drop"]], [6, ["pinning", "drop"]], [7, ["pinning"]], [8, []], [0, []]]) {
     await scenes.nth(scene).check();
     assert.deepEqual(await off(), wanted);
     await waitFrames(page, 2);
@@ -202,6 +204,31 @@ test("panel and instructions open and close, and on a narrow screen the panel st
   await context.close();
 });
 
+test("on a phone every target is at least 44 pixels high and wide", async () => {
+  const phone = { viewport: { width: 390, height: 844 }, hasTouch: true };
+  const { context, page, complaints } = await visitRunning(phone);
+  await page.locator("#collapse").tap();
+  const targets = page.locator("button:visible, #controls .segments label, #controls input[type=range], summary, footer a");
+  assert.ok((await targets.count()) > 30);
+  for (const target of await targets.all()) {
+    const { width, height } = await target.boundingBox();
+    const text = await target.evaluate((it) => it.id || it.textContent.trim());
+    assert.ok(width >= 44 && height >= 44, `${text} has ${width} x ${height} pixels`);
+  }
+  // A switch is smaller than its target, which reaches beyond it.
+  for (const toggle of await page.locator("#controls input[type=checkbox]").all()) {
+    await toggle.scrollIntoViewIfNeeded();
+    const reached = await toggle.evaluate((it) => {
+      const { left, top, width, height } = it.getBoundingClientRect();
+      const at = (x, y) => document.elementFromPoint(left + width / 2 + x, top + height / 2 + y) === it;
+      return [at(-21, 0), at(21, 0), at(0, -21), at(0, 21)];
+    });
+    assert.deepEqual(reached, [true, true, true, true], await toggle.getAttribute("id"));
+  }
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
 test("a link names scene and fabric, and unknown names change nothing", async () => {
   const linked = await visitRunning({ path: "?scene=curtain&fabric=denim&wind=3" });
   const { scene, fabric, wind } = await settings(linked.page);
@@ -213,6 +240,36 @@ test("a link names scene and fabric, and unknown names change nothing", async ()
   assert.equal((await settings(page)).scene, "sheet");
   assert.deepEqual(complaints, []);
   await context.close();
+});
+
+test("a scene has a page of its own, with a picture for previews of links", async () => {
+  const { context, page, complaints } = await visitRunning({ path: "storm.html?fabric=denim" });
+  const { scene, fabric } = await settings(page);
+  assert.deepEqual([scene, fabric], ["storm", "denim"]);
+  assert.equal(await page.title(), "Muslin: a torn flag in a storm");
+  await checkShareMetadata(page);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("links open the new scenes with their own fabrics, and the mouse walks through the doorway", async () => {
+  for (const [scene, fabric] of [["glass", "silk"], ["storm", "flag"], ["doorway", "cotton"]]) {
+    const { context, page, complaints } = await visitRunning({ path: `?scene=${scene}` });
+    const set = await settings(page);
+    assert.deepEqual([set.scene, set.fabric], [scene, fabric]);
+    const first = await hash(page);
+    await waitUntil(page, () => hash(page), (now) => now !== first, `${scene} does not move`);
+    if (scene === "doorway") {
+      // The far end of the floor, and then the near one.
+      for (const [y, far] of [[40, true], [390, false]]) {
+        await page.mouse.move(480, y);
+        const walker = () => page.evaluate(() => window.muslinDemo.walker());
+        await waitUntil(page, walker, (at) => at[2] < -0.8 === far && Math.abs(at[2]) > 0.6, `nobody walks to ${y}`);
+      }
+    }
+    assert.deepEqual(complaints, []);
+    await context.close();
+  }
 });
 
 test("the keyboard grabs the cloth, pulls it and lets it go", async () => {

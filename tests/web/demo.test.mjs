@@ -6,7 +6,9 @@ import { test } from "node:test";
 
 import { variable } from "./browser.mjs";
 import "./demo-panel.test.mjs";
+import "./demo-photo.test.mjs";
 import "./demo-robust.test.mjs";
+import "./demo-transfer.test.mjs";
 import "./tender.test.mjs";
 import {
   MIDDLE,

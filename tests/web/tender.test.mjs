@@ -43,7 +43,9 @@ test("the receipt has a page of its own, which fits a wide and a tall screen", a
     await page.waitForFunction(() => getComputedStyle(document.getElementById("instructions")).opacity === "0");
     const box = await page.locator("#stage").boundingBox();
     assert.deepEqual([box.x, box.y, box.width, box.height], [0, 0, width, height]);
-    for (const pill of await page.locator("#pills button").all()) {
+    const keyless = ["paused", "counter"].map((name) => page.locator(`#control-${name}`));
+    for (const pill of keyless) assert.equal(await pill.isVisible(), hasTouch);
+    for (const pill of await page.locator("#pills button:visible").all()) {
       const { x, y, width: wide, height: high } = await pill.boundingBox();
       assert.ok(x >= 0 && x + wide <= width && y + high <= height && high >= (hasTouch ? 44 : 36));
     }
@@ -85,7 +87,7 @@ test("space pauses and shows its overlay, I shows the counter, and W and the but
   assert.equal(await paused.isVisible(), false);
   await page.keyboard.press(" ");
   await paused.waitFor({ state: "visible" });
-  assert.equal(await paused.textContent(), "PAUSED — press Space");
+  assert.equal(await paused.innerText(), "PAUSED — press Space");
   await waitFrames(page, 2);
   const still = await hash(page);
   await waitFrames(page, 4);
@@ -117,6 +119,34 @@ test("space pauses and shows its overlay, I shows the counter, and W and the but
   for (const [id, ring] of reached) assert.notEqual(ring, "none", `${id} has no focus ring`);
   await page.locator("#control-sheet").click();
   assert.equal(await isOn(page, "sheet"), false);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("on a phone the text is above the pins, and fingers pause and show the counter", async () => {
+  const phone = { viewport: { width: 390, height: 844 }, hasTouch: true };
+  const { context, page, complaints } = await visitReceipt(phone);
+  const text = await page.locator("#instructions").boundingBox();
+  const pins = () => Promise.all([0, 23].map((i) => particle(page, i)));
+  const below = (pins) => pins.every(([, y]) => y > text.y + text.height + 8);
+  await waitUntil(page, pins, below, `the pins are not below ${text.y + text.height}`);
+  const pills = await page.locator("#pills").boundingBox();
+  const [, bottom] = await particle(page, await bottomParticle(page));
+  assert.ok(bottom < pills.y, `the paper ends at ${bottom}, the pills begin at ${pills.y}`);
+  await page.locator("#control-paused").tap();
+  const paused = page.locator("#paused");
+  await paused.waitFor({ state: "visible" });
+  assert.equal(await paused.innerText(), "PAUSED — press Pause");
+  await waitFrames(page, 2);
+  const still = await hash(page);
+  await waitFrames(page, 4);
+  assert.equal(await hash(page), still, "the sheet moved while paused");
+  await page.locator("#control-paused").tap();
+  await paused.waitFor({ state: "hidden" });
+  await page.locator("#control-counter").tap();
+  await page.locator("#counter").waitFor({ state: "visible" });
+  const [counter, title] = [await page.locator("#counter").boundingBox(), await page.locator("h1").boundingBox()];
+  assert.ok(counter.x > title.x && counter.x + counter.width <= 390, JSON.stringify([counter, title]));
   assert.deepEqual(complaints, []);
   await context.close();
 });

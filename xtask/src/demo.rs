@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use crate::failure::{During, Failure, Result};
 use crate::serve::{Mount, Server};
-use crate::{files, picture, setup, shell, web};
+use crate::{files, picture, setup, share, shell, web};
 
 /// `cargo xtask demo`: runs the demo with its options, and ends this process with its status.
 pub fn run(options: &[String]) -> Result {
@@ -121,6 +121,18 @@ pub fn draw_manual_pictures() -> Result {
     for (name, options) in MANUAL_PICTURES {
         let options: Vec<_> = options.split(' ').collect();
         shoot(&dir.join(name).with_extension("png"), &options)?;
+    }
+    Ok(())
+}
+
+/// `cargo xtask share-pictures`: draws the pictures of previews of links into `demo/web`.
+pub fn draw_share_pictures() -> Result {
+    let shots = files::target().join("shots");
+    files::create_dir(&shots)?;
+    for (scene, options) in share::shots() {
+        let png = shots.join(format!("share-{scene}.png"));
+        shoot(&png, &options)?;
+        share::save_picture(scene, &png)?;
     }
     Ok(())
 }

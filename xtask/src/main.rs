@@ -40,6 +40,7 @@ mod readme;
 mod rust;
 mod serve;
 mod setup;
+mod share;
 mod shell;
 mod site;
 mod sources;
@@ -63,6 +64,7 @@ cargo xtask demo --web              build the demo as a page and serve it
   --port N                          on this port (8080, or a free one)
   --no-open                         without opening a browser
 cargo xtask manual-pictures         draw the pictures of docs/manual with the demo
+cargo xtask share-pictures          draw the pictures of previews of links with the demo
 cargo xtask check                   format, lints of the library, unit tests and closed forms
 cargo xtask test [STEP…]            all default steps, or the steps that are named
   --all                             all steps, with dist, clean-root, site, engines, godot and
@@ -113,6 +115,7 @@ fn run(args: &[String]) -> Result {
     match chore.as_str() {
         "demo" => demo::run(rest),
         "manual-pictures" => alone(chore, rest, demo::draw_manual_pictures),
+        "share-pictures" => alone(chore, rest, demo::draw_share_pictures),
         "test" => test::run(rest),
         "step" => test::run_step(rest),
         "check" => test::check(rest),

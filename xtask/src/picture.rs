@@ -31,9 +31,10 @@ pub fn check(file: &Path) -> Result {
     Ok(())
 }
 
-type Pixels = ([usize; 2], Vec<[u8; 3]>);
+pub type Pixels = ([usize; 2], Vec<[u8; 3]>);
 
-fn read(file: &Path) -> Result<Pixels> {
+/// Reads a PNG: width and height, and red, green and blue of each pixel from the top row.
+pub fn read(file: &Path) -> Result<Pixels> {
     let why = || String::from("PNG");
     let mut decoder = Decoder::new(BufReader::new(File::open(file).during(why)?));
     decoder.set_transformations(Transformations::normalize_to_color8());

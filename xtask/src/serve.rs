@@ -23,6 +23,9 @@ const MAX_HEAD: u64 = 1 << 16;
 /// The port that is tried first.
 const DEFAULT_PORT: u16 = 8080;
 
+/// The end of the head of an answer.
+const END: &[u8] = b"\r\n";
+
 /// A folder and the addresses that it answers for.
 pub struct Mount {
     /// The start of the addresses, from slash to slash.
@@ -88,11 +91,14 @@ impl Server {
         connection.set_read_timeout(Some(REQUEST_TIMEOUT))?;
         let mut lines = BufReader::new(&connection).take(MAX_HEAD).lines();
         let request = lines.next().transpose()?.unwrap_or_default();
-        // The rest of the head is not used, but must be read before the answer.
+        // The whole head must be read before the answer.
+        let mut takes_gzip = false;
         for line in lines {
-            if line?.is_empty() {
+            let line = line?;
+            if line.is_empty() {
                 break;
             }
+            takes_gzip |= accepts_gzip(&line);
         }
         let mut words = request.split_whitespace();
         let (method, url) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
@@ -103,8 +109,15 @@ impl Server {
         let Some(path) = file(&self.mounts, url) else {
             return out.write_all(&self.head("404 Not Found", "text/plain", 0));
         };
-        let body = std::fs::read(&path)?;
-        out.write_all(&self.head("200 OK", content_type(&path), body.len()))?;
+        let packed = Some(gzip_of(&path)).filter(|file| takes_gzip && file.is_file());
+        let body = std::fs::read(packed.as_ref().unwrap_or(&path))?;
+        let mut head = self.head("200 OK", content_type(&path), body.len());
+        if packed.is_some() {
+            head.truncate(head.len() - END.len());
+            head.extend_from_slice(b"Content-Encoding: gzip\r\nVary: Accept-Encoding\r\n");
+            head.extend_from_slice(END);
+        }
+        out.write_all(&head)?;
         if method == "GET" {
             out.write_all(&body)?;
         }
@@ -139,6 +152,22 @@ fn file(mounts: &[Mount], url: &str) -> Option<PathBuf> {
     file.is_file().then_some(file)
 }
 
+/// The gzip file beside a file, which is sent in its place if there is one.
+pub fn gzip_of(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".gz");
+    name.into()
+}
+
+/// Whether a line of a request says that the browser takes gzip.
+fn accepts_gzip(line: &str) -> bool {
+    line.split_once(':').is_some_and(|(name, value)| {
+        let mut codings = value.split(',').map(str::trim);
+        name.eq_ignore_ascii_case("accept-encoding")
+            && codings.any(|coding| coding.split(';').next() == Some("gzip"))
+    })
+}
+
 fn content_type(path: &Path) -> &'static str {
     match path.extension().and_then(|end| end.to_str()) {
         Some("html") => "text/html; charset=utf-8",
@@ -148,6 +177,7 @@ fn content_type(path: &Path) -> &'static str {
         Some("json" | "map") => "application/json",
         Some("svg") => "image/svg+xml",
         Some("png") => "image/png",
+        Some("jpg") => "image/jpeg",
         Some("ts" | "md" | "txt" | "hash") => "text/plain; charset=utf-8",
         _ => "application/octet-stream",
     }
@@ -188,6 +218,35 @@ mod tests {
             assert_eq!(answer.contains("name = \"xtask\""), status.ends_with("OK"));
         }
         drop(silent);
+    }
+
+    #[test]
+    fn a_browser_that_takes_gzip_gets_the_gzip_file_beside_a_file() {
+        let dir = files::target().join("serve-gzip");
+        std::fs::create_dir_all(&dir).unwrap();
+        std::fs::write(dir.join("a.js"), "whole").unwrap();
+        std::fs::write(dir.join("a.js.gz"), "packed").unwrap();
+        std::fs::write(dir.join("b.js"), "alone").unwrap();
+        let url = Server::open(vec![Mount { at: "/", dir }], 0).unwrap().spawn();
+        let address = url.trim_start_matches("http://").trim_end_matches('/');
+        for (path, line, body) in [
+            ("a.js", "Accept-Encoding: gzip, deflate, br", "packed"),
+            ("a.js", "accept-encoding: br;q=1.0, gzip;q=0.8", "packed"),
+            ("a.js", "Accept-Encoding: br", "whole"),
+            ("a.js", "Accept: gzip", "whole"),
+            ("b.js", "Accept-Encoding: gzip", "alone"),
+        ] {
+            let mut connection = TcpStream::connect(address).unwrap();
+            let request = format!("GET /{path} HTTP/1.1\r\n{line}\r\n\r\n");
+            connection.write_all(request.as_bytes()).unwrap();
+            let mut answer = String::new();
+            connection.read_to_string(&mut answer).unwrap();
+            let (head, sent) = answer.split_once("\r\n\r\n").unwrap();
+            assert_eq!(sent, body, "{line}");
+            assert!(head.contains("Content-Type: text/javascript"), "{head}");
+            assert_eq!(head.contains("Content-Encoding: gzip"), body == "packed", "{head}");
+            assert!(head.contains(&format!("Content-Length: {}", body.len())), "{head}");
+        }
     }
 
     #[test]

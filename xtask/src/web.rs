@@ -1,10 +1,14 @@
 //! Builds the demo as a page into `dist/web`, and tests it in a browser.
 
+use std::io::Write;
 use std::path::PathBuf;
 
+use flate2::Compression;
+use flate2::write::GzEncoder;
+
 use crate::browser::ServerProcess;
-use crate::failure::{Failure, Result};
-use crate::{browser, files, picture, wasm};
+use crate::failure::{During, Failure, Result};
+use crate::{browser, files, picture, serve, share, wasm};
 
 /// The folder that the page is built in.
 pub fn dir() -> PathBuf {
@@ -18,7 +22,8 @@ pub fn run(options: &[String]) -> Result {
         [] => build(),
         ["--url", url] if url.starts_with("http") && url.ends_with('/') => {
             build()?;
-            write_address(url)
+            write_address(url)?;
+            compress()
         }
         _ => Err(Failure::new(
             "`cargo xtask web` takes only --url, such as https://example.org/cloth/ with the slash",
@@ -42,11 +47,28 @@ fn with_address(page: &str, url: &str) -> String {
 pub fn build() -> Result {
     files::create_empty_dir(&dir())?;
     files::copy_dir(&files::root().join("demo/web"), &dir())?;
+    share::write_pages(&dir())?;
     // The wasm module holds the receipt's font, whose licence must come with it.
     let licence = files::read(&files::root().join("demo/fonts/OFL.txt"))?;
     files::write(&dir().join("OFL.txt"), &licence)?;
     wasm::build("muslin-demo", &dir(), "muslin_demo")?;
+    compress()?;
     println!("the page is in dist/web; it needs a server, such as `cargo xtask demo --web`");
+    Ok(())
+}
+
+/// Writes a gzip file beside each text and module of the page, for servers that send those.
+fn compress() -> Result {
+    for suffix in [".html", ".css", ".js", ".wasm"] {
+        for file in files::with_suffix(&dir(), suffix)? {
+            let why = || format!("compressing {}", file.display());
+            let bytes = std::fs::read(&file).during(why)?;
+            let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
+            gzip.write_all(&bytes).during(why)?;
+            let packed = gzip.finish().during(why)?;
+            std::fs::write(serve::gzip_of(&file), packed).during(why)?;
+        }
+    }
     Ok(())
 }
 
@@ -55,8 +77,13 @@ pub fn test() -> Result {
     let server = ServerProcess::start(&["demo", "--web", "--no-open", "--port", "0"])?;
     let shots = files::target().join("shots");
     files::create_dir(&shots)?;
-    let pictures =
-        ["web-1280x720.png", "web-390x844.png", "tender-1280x720.png", "tender-390x844.png"];
+    let pictures = [
+        "web-1280x720.png",
+        "web-390x844.png",
+        "web-photo.png",
+        "tender-1280x720.png",
+        "tender-390x844.png",
+    ];
     let pictures = pictures.map(|name| shots.join(name));
     for stale in pictures.iter().filter(|picture| picture.exists()) {
         std::fs::remove_file(stale).ok();

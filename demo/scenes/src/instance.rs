@@ -1,16 +1,17 @@
-//! A scene while it runs: its cloths, and a ball or a figure that moves through them if there is
-//! one.
+//! A scene while it runs: its cloths, and a ball, a figure or a walker that moves through them if
+//! there is one.
 //!
 //! The ball is a collider of the first cloth and moves along z as a cosine of time; the figure wears
-//! the first cloth. Before each tick they get their pose at the end of that tick, and the colliders
-//! sweep there.
+//! the first cloth; the walker is a collider of all cloths. Before each tick they get their pose at
+//! the end of that tick, and the colliders sweep there.
 
 use crate::figure::dressed::DressedBody;
+use crate::walker::Walker;
 use glam::{Quat, Vec3};
 use muslin::{Cloth, Collider, ColliderDesc, Result, Settings, Shape};
 use std::f32::consts::TAU;
 
-/// The cloths of a scene, and the ball or the figure that moves through them.
+/// The cloths of a scene, and what moves through them.
 #[derive(Debug)]
 pub struct SceneInstance {
     /// The cloths, in the order of the scene.
@@ -18,11 +19,12 @@ pub struct SceneInstance {
     mover: Option<Mover>,
 }
 
-/// What moves through the first cloth.
+/// What moves through the cloths.
 #[derive(Debug)]
 enum Mover {
     Ball(RollingBall),
     Figure(Box<DressedBody>),
+    Walker(Walker),
 }
 
 /// Motion of a ball that rolls back and forth along z.
@@ -91,6 +93,11 @@ impl SceneInstance {
         Self { cloths: vec![cloth], mover: Some(Mover::Figure(Box::new(body))) }
     }
 
+    /// Creates an instance of cloths that a walker is a collider of.
+    pub(crate) fn with_walker(cloths: Vec<Cloth>, walker: Walker) -> Self {
+        Self { cloths, mover: Some(Mover::Walker(walker)) }
+    }
+
     /// Returns centre and radius of the ball [m], if there is one.
     pub fn ball(&self) -> Option<(Vec3, f32)> {
         let Some(Mover::Ball(ball)) = &self.mover else {
@@ -103,6 +110,22 @@ impl SceneInstance {
     pub fn figure(&self) -> Option<&DressedBody> {
         match &self.mover {
             Some(Mover::Figure(body)) => Some(body),
+            _ => None,
+        }
+    }
+
+    /// Returns the walker, if there is one.
+    pub fn walker(&self) -> Option<&Walker> {
+        match &self.mover {
+            Some(Mover::Walker(walker)) => Some(walker),
+            _ => None,
+        }
+    }
+
+    /// Returns the walker to send it somewhere, if there is one.
+    pub fn walker_mut(&mut self) -> Option<&mut Walker> {
+        match &mut self.mover {
+            Some(Mover::Walker(walker)) => Some(walker),
             _ => None,
         }
     }
@@ -134,8 +157,8 @@ impl SceneInstance {
             return;
         };
         for _ in 0..ticks {
-            mover.set_targets(&mut self.cloths[0]);
-            self.cloths[0].step(1);
+            mover.set_targets(&mut self.cloths);
+            self.cloths.iter_mut().for_each(|cloth| cloth.step(1));
             mover.add_ticks(1);
         }
     }
@@ -148,13 +171,16 @@ impl SceneInstance {
         let Some(mover) = &mut self.mover else {
             return self.cloths.iter_mut().try_for_each(|cloth| cloth.advance(seconds).map(|_| ()));
         };
-        let cloth = &mut self.cloths[0];
-        let Settings { tick, max_ticks_per_advance, .. } = *cloth.settings();
+        let Settings { tick, max_ticks_per_advance, .. } = *self.cloths[0].settings();
         // One tick at a time, so that it moves in every tick, also of a late frame.
         let mut remaining = seconds.min(tick * max_ticks_per_advance as f32);
         loop {
-            mover.set_targets(cloth);
-            mover.add_ticks(cloth.advance(remaining.min(tick))?);
+            mover.set_targets(&mut self.cloths);
+            let mut ticks = 0;
+            for cloth in &mut self.cloths {
+                ticks = cloth.advance(remaining.min(tick))?;
+            }
+            mover.add_ticks(ticks);
             remaining -= tick;
             if remaining <= 0.0 {
                 return Ok(());
@@ -165,10 +191,11 @@ impl SceneInstance {
 
 impl Mover {
     /// Sets the poses at the end of the next tick.
-    fn set_targets(&mut self, cloth: &mut Cloth) {
+    fn set_targets(&mut self, cloths: &mut [Cloth]) {
         match self {
-            Self::Ball(ball) => ball.set_target(cloth),
-            Self::Figure(body) => body.set_targets(cloth),
+            Self::Ball(ball) => ball.set_target(&mut cloths[0]),
+            Self::Figure(body) => body.set_targets(&mut cloths[0]),
+            Self::Walker(walker) => walker.set_targets(cloths),
         }
     }
 
@@ -177,6 +204,7 @@ impl Mover {
         match self {
             Self::Ball(ball) => ball.ticks = ball.ticks.wrapping_add(ticks),
             Self::Figure(body) => body.add_ticks(ticks),
+            Self::Walker(walker) => walker.add_ticks(ticks),
         }
     }
 }

@@ -179,3 +179,103 @@ fn a_new_scene_resets_the_camera_to_the_start_of_its_rig() {
     app.set("scene", 0.0).unwrap();
     assert_eq!(app.camera.view().target, usual.target);
 }
+
+#[test]
+fn the_walker_follows_the_mouse_through_the_curtain_and_a_finger_that_presses_the_floor() {
+    let mut app = app();
+    app.camera().set_drift(false);
+    app.set("scene", SceneKind::ALL.iter().position(|s| *s == SceneKind::Doorway).unwrap() as f32)
+        .unwrap();
+    let walker = |app: &App| app.scene.walker().unwrap().position();
+    let pixel = |app: &App, at: Vec3| {
+        let normal = app.camera.view().project(at, app.screen.aspect()).unwrap();
+        app.screen.pixels(normal)
+    };
+    let run = |app: &mut App| (0..180).for_each(|_| app.frame(1.0 / 60.0).unwrap());
+    let front = Vec3::new(0.2, walker(&app).y, 0.9);
+    let behind = front.with_z(-0.9);
+    for goal in [behind, front] {
+        let at = pixel(&app, goal);
+        app.drag(0, at).unwrap();
+        run(&mut app);
+        assert!(walker(&app).distance(goal) < 0.05, "at {}, not {goal}", walker(&app));
+    }
+    app.clear_hover();
+    let goal = front.with_x(-0.4);
+    let (at, view) = (pixel(&app, goal), app.camera.view());
+    app.press(1, at).unwrap();
+    run(&mut app);
+    assert!(walker(&app).distance(goal) < 0.05, "at {}, not {goal}", walker(&app));
+    assert_eq!(app.camera.view(), view, "the finger turned the camera");
+    app.lift(1).unwrap();
+    // The curtain in front of the walkway is grabbed.
+    let cloth = pixel(&app, app.scene.cloths[1].positions()[130]);
+    app.press(1, cloth).unwrap();
+    app.drag(1, cloth + Vec2::splat(20.0)).unwrap();
+    run(&mut app);
+    assert!(walker(&app).distance(goal) < 0.05, "it followed a pointer that holds cloth");
+}
+
+#[test]
+fn in_the_photo_mode_time_stands_still_and_a_pointer_on_the_cloth_turns_the_camera() {
+    let mut app = app();
+    let at = app.particle_on_screen(820).unwrap();
+    app.press(1, at).unwrap();
+    assert_eq!(app.cursor().unwrap(), Cursor::Grabbing);
+    assert!(app.key('o', false).unwrap() && app.is_photo());
+    assert_ne!(app.cursor().unwrap(), Cursor::Grabbing, "a hand still holds the cloth");
+    let (hash, settings, eye) = (app.state_hash(), app.settings().clone(), app.camera.view().eye);
+    assert!(!app.key('f', false).unwrap(), "a key changed the wireframe");
+    app.press(1, at).unwrap();
+    app.drag(1, at + Vec2::new(150.0, 0.0)).unwrap();
+    for _ in 0..900 {
+        app.frame(1.0 / 60.0).unwrap();
+    }
+    let turned = app.camera.view().eye;
+    assert!(turned.distance(eye) > 0.5, "the camera did not turn");
+    app.lift(1).unwrap();
+    for _ in 0..900 {
+        app.frame(1.0 / 60.0).unwrap();
+    }
+    assert!(app.camera.view().eye.distance(turned) < 1.0e-3, "the camera drifts");
+    assert_eq!((app.state_hash(), app.settings()), (hash, &settings));
+    assert!(app.key('O', false).unwrap() && !app.is_photo());
+    app.frame(1.0 / 30.0).unwrap();
+    assert_ne!(app.state_hash(), hash, "time still stands");
+}
+
+#[test]
+fn a_photo_is_upright_on_an_upright_screen() {
+    let mut app = app();
+    app.resize(Vec2::new(1440.0, 900.0));
+    assert_eq!(app.photo_size(), [3840, 2160]);
+    app.resize(Vec2::new(390.0, 844.0));
+    assert_eq!(app.photo_size(), [2160, 3840]);
+}
+
+#[test]
+fn the_cloth_yields_to_the_mouse_until_the_first_press() {
+    let run = |presses: bool, hovers: bool, is_reduced: bool| {
+        let mut app = app();
+        app.camera().set_drift(false);
+        app.set_reduced_motion(is_reduced).unwrap();
+        app.camera().set_drift(false);
+        if presses {
+            app.press(1, Vec2::new(20.0, 20.0)).unwrap();
+            app.lift(1).unwrap();
+        }
+        let at = app.particle_on_screen(820).unwrap();
+        if hovers {
+            app.drag(0, at).unwrap();
+        }
+        for _ in 0..20 {
+            app.frame(1.0 / 60.0).unwrap();
+        }
+        let depth = (app.particle(820).unwrap() - app.camera.view().eye).length();
+        (depth, app.state_hash())
+    };
+    let pushed = run(false, true, false).0 - run(false, false, false).0;
+    assert!(pushed > 0.02 && pushed < 0.25, "the mouse pushes the cloth by {pushed} m");
+    assert_eq!(run(true, true, false).1, run(true, false, false).1);
+    assert_eq!(run(false, true, true).1, run(false, false, true).1);
+}

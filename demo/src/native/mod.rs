@@ -9,6 +9,7 @@
 //! scene.
 
 pub mod panel;
+pub mod photo_file;
 pub mod receipt_window;
 pub mod settings_file;
 pub mod window_app;

@@ -6,6 +6,8 @@
 //!
 //! Invariant: drawing the panel does not change the application.
 
+use std::path::PathBuf;
+
 use glam::Vec2;
 use three_d::egui::{
     self, Align, Align2, Area, Button, CollapsingHeader, Color32, Context, CornerRadius, Frame, Id,
@@ -38,6 +40,8 @@ pub enum PanelCommand {
     Act(Action),
     /// Switch the timing of the stages on or off.
     TimeStages(bool),
+    /// Save a photo.
+    SavePhoto,
 }
 
 /// State of the panel, and the rectangles that it covers.
@@ -46,11 +50,13 @@ pub struct Panel {
     help: bool,
     rects: Vec<Rect>,
     styled: bool,
+    /// What became of the last photo.
+    photo: String,
 }
 
 impl Default for Panel {
     fn default() -> Self {
-        Self { open: true, help: true, rects: Vec::new(), styled: false }
+        Self { open: true, help: true, rects: Vec::new(), styled: false, photo: String::new() }
     }
 }
 
@@ -68,6 +74,14 @@ impl Panel {
     /// Hides the instructions, because the user has touched the scene.
     pub fn hide_help(&mut self) {
         self.help = false;
+    }
+
+    /// Shows where a photo was saved, or why it was not.
+    pub fn show_photo(&mut self, saved: Result<PathBuf, String>) {
+        self.photo = match saved {
+            Ok(path) => format!("Saved {}", path.display()),
+            Err(error) => format!("Not saved: {error}"),
+        };
     }
 
     /// Returns whether a point of the window belongs to the panel.
@@ -88,6 +102,14 @@ impl Panel {
             self.styled = true;
         }
         self.rects.clear();
+        if app.is_photo() {
+            let bar = Area::new(Id::new("photo"))
+                .anchor(Align2::CENTER_BOTTOM, vec2(0.0, -24.0))
+                .show(ctx, |ui| glass().show(ui, |ui| self.photo_bar(ui, app, commands)));
+            self.rects.push(bar.response.rect);
+            return;
+        }
+        self.photo.clear();
         let panel = Area::new(Id::new("panel")).anchor(Align2::LEFT_TOP, vec2(16.0, 16.0)).show(
             ctx,
             |ui| {
@@ -112,6 +134,23 @@ impl Panel {
                 .show(ctx, |ui| glass().show(ui, |ui| self.instructions(ui)));
             self.rects.push(help.response.rect);
         }
+    }
+
+    fn photo_bar(&self, ui: &mut Ui, app: &App, commands: &mut Vec<PanelCommand>) {
+        ui.horizontal(|ui| {
+            let [width, height] = app.photo_size();
+            let save = Button::new(format!("Save {width} × {height}")).min_size(vec2(150.0, 30.0));
+            if ui.add(save).on_hover_text("Save (Enter)").clicked() {
+                commands.push(PanelCommand::SavePhoto);
+            }
+            let leave = Button::new("Leave").min_size(vec2(72.0, 30.0));
+            if ui.add(leave).on_hover_text("Leave (Escape)").clicked() {
+                commands.push(PanelCommand::Act(Action::Photo));
+            }
+            if !self.photo.is_empty() {
+                ui.label(RichText::new(&self.photo).color(TEXT));
+            }
+        });
     }
 
     fn title(&mut self, ui: &mut Ui) {
@@ -162,7 +201,7 @@ fn rows(ui: &mut Ui, app: &App, commands: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
         for control in CONTROLS {
             if let Kind::Button(action) = control.kind {
-                let size = vec2(0.5 * (WIDTH - 8.0), 30.0);
+                let size = vec2((WIDTH - 16.0) / 3.0, 30.0);
                 let hint = format!("{} ({})", control.about, control.key_name());
                 let button = Button::new(control.label).min_size(size);
                 let is_enabled = control.is_enabled(app.settings());
@@ -229,10 +268,11 @@ fn row(ui: &mut Ui, app: &App, control: &Control, commands: &mut Vec<PanelComman
         }
         Kind::Choice { options, get, .. } => {
             ui.label(label);
-            ui.horizontal(|ui| {
+            ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing.x = 4.0;
-                let gaps = 4.0 * (options.len() - 1) as f32;
-                let size = vec2((WIDTH - gaps) / options.len() as f32, 26.0);
+                let across = if options.len() > 5 { 3 } else { options.len() };
+                let gaps = 4.0 * (across - 1) as f32;
+                let size = vec2((WIDTH - gaps) / across as f32 - 0.5, 26.0);
                 for (i, option) in options.iter().enumerate() {
                     let chosen = get(settings) == i;
                     let text = RichText::new(*option).size(12.0);

@@ -6,16 +6,23 @@
 //!
 //! Invariant: pointer positions are in logical pixels.
 
+use std::path::Path;
+
 use glam::Vec2;
 use muslin::Result;
 use three_d::{Context, CoreError, RenderTarget, egui};
 
 use super::panel::{Panel, PanelCommand};
-use super::settings_file;
+use super::{photo_file, settings_file};
 use crate::app::App;
 use crate::pointer::Cursor;
 use crate::receipt::pointers::PressKind;
 use crate::render::Renderer;
+use crate::scene_kind::SceneKind;
+
+/// Typed characters of two keys.
+const ESCAPE: char = '\u{1b}';
+const RETURN: char = '\r';
 
 /// An application with an overlay. Pointer positions are in logical pixels. Functions fail with the
 /// error of the cloth, or of the driver when they draw.
@@ -68,6 +75,8 @@ pub struct ClothWindow {
     panel: Panel,
     commands: Vec<PanelCommand>,
     saved_settings: String,
+    /// Whether the next frame saves a photo.
+    wants_photo: bool,
 }
 
 impl ClothWindow {
@@ -76,7 +85,20 @@ impl ClothWindow {
         let panel = Panel::default();
         app.set_insets(panel.insets());
         let saved_settings = app.settings().to_json();
-        Self { app, renderer: None, panel, commands: Vec::new(), saved_settings }
+        let commands = Vec::new();
+        Self { app, renderer: None, panel, commands, saved_settings, wants_photo: false }
+    }
+
+    /// Takes a photo and saves it in the current folder; the panel says where, or why not.
+    fn save_photo(&mut self) -> std::result::Result<(), CoreError> {
+        let Some(renderer) = &mut self.renderer else {
+            return Ok(());
+        };
+        let photo = self.app.take_photo(renderer)?;
+        let scene = SceneKind::NAMES[self.app.settings().scene as usize].to_lowercase();
+        let saved = photo_file::save(Path::new("."), &scene, &photo);
+        self.panel.show_photo(saved.map_err(|error| error.to_string()));
+        Ok(())
     }
 }
 
@@ -133,7 +155,10 @@ impl WindowApp for ClothWindow {
     }
 
     fn key(&mut self, key: char) -> Result<()> {
+        self.app.camera().note_input();
         match key {
+            ESCAPE if self.app.is_photo() => self.app.set_photo(false)?,
+            RETURN if self.app.is_photo() => self.wants_photo = true,
             '?' | 'h' | 'H' => self.panel.toggle_help(),
             'c' | 'C' => self.panel.toggle(),
             _ => {
@@ -153,21 +178,29 @@ impl WindowApp for ClothWindow {
 
     fn draw_overlay(&mut self, ctx: &egui::Context) {
         self.panel.draw(ctx, &self.app, &mut self.commands);
-        self.app.set_insets(self.panel.insets());
+        let is_photo = self.app.is_photo();
+        self.app.set_insets(if is_photo { [0.0; 4] } else { self.panel.insets() });
     }
 
     fn run_commands(&mut self) -> Result<()> {
         for command in self.commands.drain(..) {
+            if !matches!(command, PanelCommand::TimeStages(_)) {
+                self.app.camera().note_input();
+            }
             match command {
                 PanelCommand::Set(name, value) => self.app.set(name, value)?,
                 PanelCommand::Act(action) => self.app.run_action(action)?,
                 PanelCommand::TimeStages(on) => self.app.time_stages(on),
+                PanelCommand::SavePhoto => self.wants_photo = true,
             }
         }
         Ok(())
     }
 
     fn draw(&mut self, screen: &RenderTarget<'_>) -> std::result::Result<(), CoreError> {
+        if std::mem::take(&mut self.wants_photo) {
+            self.save_photo()?;
+        }
         match &mut self.renderer {
             Some(renderer) => self.app.draw(renderer, screen),
             None => Ok(()),

@@ -62,6 +62,7 @@ impl ReceiptApp {
             view: self.camera.view(),
             pins: &pins,
             resolution_scale: self.resolution_scaler.scale(density),
+            is_low: self.resolution_scaler.is_low(),
         };
         renderer.draw(&view, output)?;
         self.meter.record_drawing(uploaded - start, (self.clock)() - uploaded);

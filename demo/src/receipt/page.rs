@@ -13,6 +13,7 @@ use wasm_bindgen::prelude::*;
 
 use super::pointers::PressKind;
 use super::{ReceiptApp, ReceiptSettings, settings};
+use crate::camera::FreeArea;
 use crate::render::receipt_renderer::ReceiptRenderer;
 use crate::web::{context_from_webgl, js_error, now};
 
@@ -21,6 +22,9 @@ use crate::web::{context_from_webgl, js_error, now};
 pub struct Receipt {
     app: ReceiptApp,
     renderer: Option<ReceiptRenderer>,
+    /// Size of the canvas, and how far overlays reach into it [px].
+    size: Vec2,
+    insets: [f32; 4],
 }
 
 #[wasm_bindgen]
@@ -30,7 +34,7 @@ impl Receipt {
     pub fn new(small: bool) -> Result<Receipt, JsError> {
         let app = ReceiptApp::new(ReceiptSettings::default(), small, || now() * 1.0e-3)
             .map_err(js_error)?;
-        Ok(Self { app, renderer: None })
+        Ok(Self { app, renderer: None, size: Vec2::ONE, insets: [0.0; 4] })
     }
 
     /// Creates the renderer in a WebGL 2 context, also after a lost one.
@@ -75,7 +79,16 @@ impl Receipt {
 
     /// Sets the size of the canvas in CSS pixels.
     pub fn resize(&mut self, width: f32, height: f32) {
-        self.app.resize(Vec2::new(width, height));
+        self.size = Vec2::new(width, height);
+        self.update_free_area();
+        self.app.resize(self.size);
+    }
+
+    /// Sets how far overlays reach into the canvas, in CSS pixels.
+    #[wasm_bindgen(js_name = setInsets)]
+    pub fn set_insets(&mut self, left: f32, top: f32, right: f32, bottom: f32) {
+        self.insets = [left, top, right, bottom];
+        self.update_free_area();
     }
 
     /// Handles a pressed pointer, in CSS pixels of the canvas; `turns` orbits the camera in any
@@ -166,5 +179,12 @@ impl Receipt {
     pub fn particle_screen(&self, particle: u32) -> Option<Box<[f32]>> {
         let at = self.app.on_screen(self.app.particle(particle)?)?;
         Some(Box::new([at.x, at.y]))
+    }
+}
+
+impl Receipt {
+    /// Centres the paper in what overlays leave free.
+    fn update_free_area(&mut self) {
+        self.app.camera().set_free_area(FreeArea::from_insets(self.insets, self.size));
     }
 }

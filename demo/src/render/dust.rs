@@ -1,25 +1,30 @@
-//! Dust in the key light: motes that drift through the air and glint where the beam passes.
+//! Dust in the key light, and rain: motes drift through the air and glint where the beam passes;
+//! drops fall as streaks.
 //!
-//! Method: one draw call of small quads; `dust.vert` computes their places from their numbers and
-//! the time, so that nothing is uploaded.
+//! Method: one draw call of small quads; `dust.vert` and `rain.vert` compute their places from their
+//! numbers and the time, so that nothing is uploaded.
 //!
 //! Reads the camera view and the time; writes the current colour target.
 //!
-//! Invariant: a mote is black where its path starts again.
+//! Invariant: motes and drops are black where their paths start again.
 
-use three_d::{Blend, Context, CoreError, Program, RenderStates, VertexBuffer, WriteMask};
+use glam::Vec3;
+use three_d::{Blend, Context, CoreError, Cull, Program, RenderStates, VertexBuffer, WriteMask};
 
-use super::light::STAGE_CENTRE;
+use super::light::{FLOOR, STAGE_CENTRE};
 use super::pass::{RenderPass, to_gl_matrix, to_gl_vector};
 
 /// Number of motes.
 const MOTES: u32 = 90;
+/// Number of drops.
+const DROPS: u32 = 700;
 
-/// Corners of the motes, and the shader program.
+/// Corners of the motes and of the drops, and the shader programs.
 pub struct Dust {
-    program: Program,
-    /// Corner (-1 to 1) and number of the mote.
-    corners: VertexBuffer<[f32; 3]>,
+    dust: Program,
+    rain: Program,
+    motes: VertexBuffer<[f32; 3]>,
+    drops: VertexBuffer<[f32; 3]>,
 }
 
 impl Dust {
@@ -28,22 +33,25 @@ impl Dust {
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
-        let quad = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        let corners: Vec<_> =
-            (0..MOTES).flat_map(|i| quad.map(|[x, y]| [x, y, i as f32])).collect();
         Ok(Self {
-            program: Program::from_source(
+            dust: Program::from_source(
                 context,
                 include_str!("shaders/dust.vert"),
                 include_str!("shaders/dust.frag"),
             )?,
-            corners: VertexBuffer::new_with_data(context, &corners),
+            rain: Program::from_source(
+                context,
+                include_str!("shaders/rain.vert"),
+                include_str!("shaders/rain.frag"),
+            )?,
+            motes: VertexBuffer::new_with_data(context, &quads(MOTES)),
+            drops: VertexBuffer::new_with_data(context, &quads(DROPS)),
         })
     }
 
     /// Draws the motes as they are at `time` [s].
     pub(super) fn draw(&self, pass: &RenderPass, time: f32) {
-        let p = &self.program;
+        let p = &self.dust;
         p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
         p.use_uniform("centre", to_gl_vector(STAGE_CENTRE));
         p.use_uniform("right", to_gl_vector(pass.view.right()));
@@ -51,12 +59,37 @@ impl Dust {
         p.use_uniform("keyTowards", to_gl_vector(pass.lights.key.towards));
         p.use_uniform("keyColour", to_gl_vector(pass.lights.key.colour));
         p.use_uniform("time", time);
-        p.use_vertex_attribute("mote", &self.corners);
-        let states = RenderStates {
-            blend: Blend::ADD,
-            write_mask: WriteMask::COLOR,
-            ..RenderStates::default()
-        };
-        p.draw_arrays(states, pass.viewport, self.corners.vertex_count());
+        p.use_vertex_attribute("mote", &self.motes);
+        p.draw_arrays(added(), pass.viewport, self.motes.vertex_count());
+    }
+
+    /// Draws drops that fall with `velocity` [m/s] as they are at `time` [s].
+    pub(super) fn draw_rain(&self, pass: &RenderPass, velocity: Vec3, time: f32) {
+        let p = &self.rain;
+        p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
+        p.use_uniform("centre", to_gl_vector(STAGE_CENTRE));
+        p.use_uniform("eye", to_gl_vector(pass.view.eye));
+        p.use_uniform("velocity", to_gl_vector(velocity));
+        p.use_uniform("floorHeight", FLOOR);
+        p.use_uniform("pixel", 1.0 / pass.view.focal_length_pixels(pass.viewport.height as f32));
+        p.use_uniform("time", time);
+        p.use_vertex_attribute("mote", &self.drops);
+        p.draw_arrays(added(), pass.viewport, self.drops.vertex_count());
+    }
+}
+
+/// Returns corner (-1 to 1) and number for two triangles of each of `count` quads.
+fn quads(count: u32) -> Vec<[f32; 3]> {
+    let quad = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    (0..count).flat_map(|i| quad.map(|[x, y]| [x, y, i as f32])).collect()
+}
+
+/// Adds light, hidden by what is nearer.
+fn added() -> RenderStates {
+    RenderStates {
+        blend: Blend::ADD,
+        cull: Cull::None,
+        write_mask: WriteMask::COLOR,
+        ..RenderStates::default()
     }
 }

@@ -22,6 +22,8 @@ use super::solid::Solid;
 const HALF_SIDE: f32 = 8.0;
 /// Most solids that darken the floor around their feet.
 const MAX_FEET: usize = 8;
+/// Most balls of glass that gather light on the floor.
+const MAX_GLASS: usize = 6;
 /// A solid that ends this far above the floor stands on it [m].
 const STANDING: f32 = 0.03;
 
@@ -68,6 +70,10 @@ impl Ground {
         let feet = feet(solids);
         p.use_uniform("footCount", feet.len() as i32);
         p.use_uniform_array("feet", &padded::<MAX_FEET, _>(feet.iter().copied()).map(to_gl_vector));
+        let glass = solids.iter().filter(|solid| solid.is_glass);
+        let glass = glass.map(|ball| ball.from.extend(ball.radius).to_array());
+        p.use_uniform("glassCount", glass.clone().count().min(MAX_GLASS) as i32);
+        p.use_uniform_array("glass", &padded::<MAX_GLASS, _>(glass).map(three_d::Vec4::from));
         let spheres = halos.iter().map(|halo| halo.centre.extend(halo.radius).to_array());
         p.use_uniform("haloCount", halos.len() as i32);
         p.use_uniform_array("halos", &padded::<LAMPS, _>(spheres).map(three_d::Vec4::from));

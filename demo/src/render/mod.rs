@@ -1,8 +1,8 @@
 //! Renderer of the cloth scenes: forward rendering with two shadow-casting lights.
 //!
 //! ```text
-//! shadow maps ─▶ sky ─▶ reflections ─▶ ground ─▶ solids ─▶ cloth ─▶ threads, wireframe ─▶ glow, dust, trail
-//!                                      (multisampled HDR target)           ─▶ resolve ─▶ post ─▶ output
+//! shadow maps ─▶ sky ─▶ reflections ─▶ ground ─▶ solids ─▶ cloth ─▶ threads, wireframe ─▶ glow, dust
+//!       ─▶ glass ─▶ trail (multisampled HDR target) ─▶ resolve ─▶ post ─▶ output
 //! ```
 //! Method: passes write linear colours to a multisampled half-float target; [`post`] applies tone
 //! mapping. All shaders run on OpenGL 3.3 and on WebGL 2.
@@ -15,6 +15,7 @@ mod canvas;
 pub mod cloth_material;
 pub mod dust;
 pub mod fringe;
+pub mod glass;
 pub mod glow;
 pub mod ground;
 mod halo;
@@ -58,8 +59,12 @@ pub struct FrameScene<'a> {
     pub wireframe: bool,
     /// Time of what moves by itself [s].
     pub time: f32,
+    /// Velocity of the rain [m/s], if it rains.
+    pub rain: Option<glam::Vec3>,
     /// Fraction of the output pixels to draw along each side; the result is scaled up.
     pub resolution_scale: f32,
+    /// Whether to draw one sample per pixel, for slow machines.
+    pub is_low: bool,
 }
 
 /// All GPU resources of the cloth scenes; created again after a lost context.
@@ -74,6 +79,7 @@ pub struct Renderer {
     sky: sky::Sky,
     cloth: cloth_material::ClothMaterial,
     ground: ground::Ground,
+    glass: glass::Glass,
     glow: glow::Glow,
     dust: dust::Dust,
     wireframe: wireframe::Wireframe,
@@ -114,6 +120,7 @@ impl Renderer {
             sky: sky::Sky::new(context)?,
             cloth: cloth_material::ClothMaterial::new(context)?,
             ground: ground::Ground::new(context)?,
+            glass: glass::Glass::new(context)?,
             glow: glow::Glow::new(context)?,
             dust: dust::Dust::new(context)?,
             wireframe: wireframe::Wireframe::new(context)?,
@@ -154,7 +161,7 @@ impl Renderer {
     ) -> Result<(), CoreError> {
         let side = |pixels: u32| (pixels as f32 * frame.resolution_scale).round().max(1.0) as u32;
         let (width, height) = (side(output.width()), side(output.height()));
-        HdrTarget::resize(&mut self.target, &self.context, width, height);
+        HdrTarget::resize(&mut self.target, &self.context, [width, height], frame.is_low);
         let [key, rim] = [&self.lights.key, &self.lights.rim].map(Light::clip_from_world);
         let maps = [
             (&self.shadow, key, Detail::Full),
@@ -182,6 +189,7 @@ impl Renderer {
         };
         let shadows = [&self.shadow, &self.rim_shadow];
         let halos = halo::halos(&frame.view, frame.time);
+        let dim = if frame.wireframe { 0.16 } else { 1.0 };
         target
             .samples
             .clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0))
@@ -199,7 +207,6 @@ impl Renderer {
                     frame.solids,
                     &halos,
                 );
-                let dim = if frame.wireframe { 0.16 } else { 1.0 };
                 self.solids.draw(&pass, &self.shadow, frame.solids, dim);
                 for (cloth, albedo) in cloths() {
                     self.cloth.draw(&pass, &cloth.mesh, shadows, albedo, dim);
@@ -212,9 +219,24 @@ impl Renderer {
                 }
                 self.glow.draw(&pass, &self.quad, &halos);
                 self.dust.draw(&pass, frame.time);
-                self.trail.draw(&pass, frame.trail);
+                if let Some(velocity) = frame.rain {
+                    self.dust.draw_rain(&pass, velocity, frame.time);
+                }
                 Ok(())
             })?;
+        // Glass refracts the picture without it.
+        let has_glass = frame.solids.iter().any(|solid| solid.is_glass);
+        if has_glass {
+            target.samples.resolve_color_to(&target.resolved.as_color_target(None));
+        }
+        target.samples.write::<CoreError>(|| {
+            if has_glass {
+                let sources = (&self.shadow, &target.resolved);
+                self.glass.draw(&pass, &self.solids, frame.solids, sources, dim);
+            }
+            self.trail.draw(&pass, frame.trail);
+            Ok(())
+        })?;
         target.samples.resolve_color_to(&target.resolved.as_color_target(None));
         output.write::<CoreError>(|| {
             self.post.draw(output.viewport(), &self.quad, &target.resolved);

@@ -54,6 +54,8 @@ pub struct ReceiptFrame<'a> {
     pub pins: &'a [Vec3],
     /// Fraction of the output pixels to draw along each side.
     pub resolution_scale: f32,
+    /// Whether to draw one sample per pixel, for slow machines.
+    pub is_low: bool,
 }
 
 /// All GPU resources of the receipt; created again after a lost context.
@@ -135,7 +137,7 @@ impl ReceiptRenderer {
     ) -> Result<(), CoreError> {
         let side = |pixels: u32| (pixels as f32 * view.resolution_scale).round().max(1.0) as u32;
         let (width, height) = (side(output.width()), side(output.height()));
-        HdrTarget::resize(&mut self.target, &self.context, width, height);
+        HdrTarget::resize(&mut self.target, &self.context, [width, height], view.is_low);
         let pins: Vec<Solid> = view.pins.iter().map(|at| pin(*at)).collect();
         let key = self.lights.key;
         let clip = key.clip_around(self.centre, self.radius, 0.5 * DEPTH, 0.0..DEPTH);

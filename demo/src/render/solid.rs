@@ -32,6 +32,8 @@ pub struct Solid {
     pub bevel: Option<f32>,
     /// Colour, `0xrrggbb`.
     pub colour: u32,
+    /// Whether it is a ball of clear glass, which has no colour.
+    pub is_glass: bool,
 }
 
 impl Solid {
@@ -40,16 +42,22 @@ impl Solid {
         Self::capsule(centre, centre, radius, colour)
     }
 
+    /// Creates a ball of glass.
+    pub fn glass_ball(centre: Vec3, radius: f32) -> Self {
+        Self { is_glass: true, ..Self::sphere(centre, radius, 0xb9cfe0) }
+    }
+
     /// Creates a capsule: a rod with round ends.
     pub fn capsule(from: Vec3, to: Vec3, radius: f32, colour: u32) -> Self {
-        Self { from, to, radius, bevel: None, colour }
+        Self { from, to, radius, bevel: None, colour, is_glass: false }
     }
 
     /// Creates a cylinder whose edges are rounded by `bevel` [m].
     pub fn cylinder(from: Vec3, to: Vec3, radius: f32, bevel: f32, colour: u32) -> Self {
         // The rounded edges are part of the length.
         let round = (to - from).normalize_or(Vec3::Y) * bevel;
-        Self { from: from + round, to: to - round, radius, bevel: Some(bevel), colour }
+        let (from, to) = (from + round, to - round);
+        Self { from, to, radius, bevel: Some(bevel), colour, is_glass: false }
     }
 }
 
@@ -127,7 +135,8 @@ impl Solids {
         dim: f32,
     ) {
         let states = RenderStates::default();
-        self.draw_from(pass.view.eye, pass, shadow, clip, solids, states, [dim, 0.0]);
+        let opaque: Vec<_> = solids.iter().copied().filter(|solid| !solid.is_glass).collect();
+        self.draw_from(pass.view.eye, pass, shadow, clip, &opaque, states, [dim, 0.0]);
     }
 
     fn draw_from(
@@ -157,17 +166,17 @@ impl Solids {
         }
     }
 
-    /// Draws the solids into a depth map.
+    /// Draws the solids that are not of glass into a depth map.
     pub(super) fn draw_depth(&self, clip_from_world: Mat4, viewport: Viewport, solids: &[Solid]) {
         let states = RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() };
-        for solid in solids {
+        for solid in solids.iter().filter(|solid| !solid.is_glass) {
             let triangles = self.place(&self.depth, clip_from_world, solid);
             self.depth.draw_elements(states, viewport, triangles);
         }
     }
 
     /// Sets the uniforms of a solid, and returns the triangles to draw.
-    fn place(
+    pub(super) fn place(
         &self,
         program: &Program,
         clip_from_world: Mat4,

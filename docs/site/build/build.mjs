@@ -32,7 +32,9 @@ await writeFile(join(work, "generated.json"), JSON.stringify({ root, base, sideb
 
 await build(work, { outDir: out, base });
 await buildPlayground(work, join(out, "play"));
-await cp(join(root, "dist/web"), join(out, "demo"), { recursive: true });
+// Without the gzip files of the pages, which change here.
+const isPlain = (file) => !file.endsWith(".gz");
+await cp(join(root, "dist/web"), join(out, "demo"), { recursive: true, filter: isPlain });
 await copyRustReference(rustdoc, join(out, "api/rust"));
 await addPolicies(out);
 console.log(`the site is in ${out}`);

@@ -15,6 +15,8 @@ uniform vec4 halos[6];     // centre [m] and radius [m]
 uniform vec3 haloTints[6];
 uniform int footCount;
 uniform vec3 feet[8];      // x, z and radius of solids that stand on the floor [m]
+uniform int glassCount;
+uniform vec4 glass[6];     // centre [m] and radius [m] of balls of glass
 in vec3 at;
 layout (location = 0) out vec4 colour;
 
@@ -48,11 +50,23 @@ void main() {
         float far = max(length(at.xz - feet[i].xy) - feet[i].z, 0.0);
         contact *= 1.0 - 0.75 * exp(-far / (0.03 + 0.25 * feet[i].z));
     }
+    // A ball of glass keeps light from its surroundings, and gathers it behind its middle.
+    float gathered = 0.0;
+    for (int i = 0; i < glassCount; i++) {
+        vec2 off = at.xz - glass[i].xz;
+        contact *= 1.0 - 0.6 * exp(-dot(off, off) * 7.0 / (glass[i].w * glass[i].w));
+        // The shadow is an ellipse, longer along the light; so is what shines through it.
+        vec3 axis = cross(at - glass[i].xyz, keyTowards) / glass[i].w;
+        float q = dot(axis, axis);
+        float inside = smoothstep(1.06, 0.90, q);
+        lit *= 1.0 - 0.55 * inside;
+        gathered += inside * (2.6 * exp(-q * 16.0) + 0.35 * smoothstep(0.45, 0.95, q)) * lit;
+    }
     vec2 p = at.xz - centre.xz;
     float r2 = dot(p, p);
     float pool = exp(-0.16 * r2);
     vec3 albedo = vec3(0.066, 0.070, 0.092);
-    vec3 light = albedo * keyColour * keyTowards.y * pool * 0.80 * (0.04 + 0.96 * lit);
+    vec3 light = albedo * keyColour * keyTowards.y * pool * 0.80 * (0.04 + 0.96 * lit + gathered);
     light += albedo * fillColour * 0.45 * exp(-0.30 * dot(p - vec2(0.9, 0.5), p - vec2(0.9, 0.5)));
     light += albedo * rimColour * 0.13 * exp(-0.35 * dot(p - vec2(1.7, -1.2), p - vec2(1.7, -1.2)));
     light += albedo * vec3(0.10, 0.13, 0.30) * (0.3 + 0.7 * pool) * (0.7 + 0.3 * lit);
