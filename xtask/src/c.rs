@@ -63,9 +63,13 @@ const FLAGS: [&str; 5] = [
 /// The compiler's flags for the library, beside those of the profile.
 pub fn compiler_flags() -> Result<Vec<String>> {
     let options = FLAGS.iter().flat_map(|flag| ["-C".into(), format!("llvm-args={flag}")]);
+    Ok(options.chain(remapped_paths()?).collect())
+}
+
+/// The compiler's flags that leave the folders of this machine out of the messages of panics.
+pub fn remapped_paths() -> Result<Vec<String>> {
     let paths = machine_paths()?;
-    let paths = paths.iter().map(|(from, to)| format!("--remap-path-prefix={from}={to}"));
-    Ok(options.chain(paths).collect())
+    Ok(paths.iter().map(|(from, to)| format!("--remap-path-prefix={from}={to}")).collect())
 }
 
 /// Folders of this machine that messages of panics would name, each with the name that they give

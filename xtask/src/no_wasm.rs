@@ -10,7 +10,7 @@ use crate::{files, tools};
 const FEATURES: [&str; 3] = ["--mvp-features", "--enable-bulk-memory", "--enable-mutable-globals"];
 
 /// These options limit inlining: JavaScript engines do not optimise very large functions.
-const OPTIMIZED: [&str; 7] = ["-O3", "-aimfs", "2", "-fimfs", "0", "-ocimfs", "0"];
+const OPTIMIZED: [&str; 7] = ["-O4", "-aimfs", "2", "-fimfs", "0", "-ocimfs", "0"];
 
 /// Replacements in the output of wasm2js: the start of a part, its end, and the text that replaces
 /// both and what lies between. `no-wasm.js` does all importing and exporting.

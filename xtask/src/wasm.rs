@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use wasm_bindgen_cli_support::Bindgen;
 
 use crate::failure::{During, Result};
-use crate::{files, setup, shell, traps};
+use crate::{c, files, setup, shell, traps};
 
 /// The Rust target of pages.
 pub const TARGET: &str = "wasm32-unknown-unknown";
@@ -81,20 +81,26 @@ fn compile_with(package: &str, flags: &str, options: &[&str]) -> Result<PathBuf>
     setup::ensure_target(TARGET)?;
     let mut cargo = shell::cargo(&["rustc", "--release", "--lib", "--crate-type", "cdylib"]);
     cargo.args(["--target", TARGET, "--package", package]).args(options);
-    // Flags from the environment would replace these.
-    cargo.env("RUSTFLAGS", flags).env_remove("CARGO_ENCODED_RUSTFLAGS");
+    let mut flags: Vec<String> = flags.split_whitespace().map(String::from).collect();
+    flags.extend(c::remapped_paths()?);
+    // These replace all flags from the environment. The separator is that of the variable.
+    cargo.env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f"));
     shell::run(&mut cargo)?;
     let built = package.replace('-', "_") + ".wasm";
     Ok(files::target().join(TARGET).join("release").join(built))
 }
 
+/// Writes the module and its script. The module says which features it uses, which no engine reads;
+/// that goes.
 fn write(bindgen: &mut Bindgen, dir: &Path, name: &str) -> Result {
     let during = || String::from("wasm-bindgen");
-    bindgen
+    let mut output = bindgen
         .typescript(false)
         .remove_name_section(true)
         .remove_producers_section(true)
         .out_name(name)
-        .generate(dir)
-        .during(during)
+        .generate_output()
+        .during(during)?;
+    output.wasm_mut().customs.remove_raw("target_features");
+    output.emit(dir).during(during)
 }
