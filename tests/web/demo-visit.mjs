@@ -30,15 +30,13 @@ export async function visit({ path = "", ...options } = {}, prepare) {
 
 /**
  * Opens the demo page and waits until it runs. Closes the help, and with `uncovered` also the
- * panel, and waits until the picture has moved into its place.
+ * panel, and waits until the picture has moved into the place that they leave.
  */
 export async function visitRunning({ uncovered, ...options } = {}, prepare) {
   const visited = await visit(options, prepare);
   await waitUntilRunning(visited);
-  if (uncovered) {
-    await visited.page.locator("#collapse").click();
-    await waitForPicture(visited.page);
-  }
+  if (uncovered) await visited.page.locator("#collapse").click();
+  await waitForPicture(visited.page);
   return visited;
 }
 
