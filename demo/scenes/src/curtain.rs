@@ -2,7 +2,7 @@
 //! it.
 
 use crate::instance::{BallMotion, SceneInstance};
-use crate::scene::{FLOOR, Scene, with_self_collision};
+use crate::scene::{FLOOR, Scene, built, with_self_collision};
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, Settings};
 use std::f32::consts::TAU;
@@ -136,10 +136,7 @@ impl Scene for Curtain {
             Self::add_floor(&mut cloth)?;
             SceneInstance::with_ball(cloth, Self::BALL)
         });
-        match instance {
-            Ok(instance) => instance,
-            Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
-        }
+        built(instance)
     }
 
     fn check(instance: &SceneInstance) -> core::result::Result<(), String> {

@@ -1,7 +1,7 @@
 //! Scene: a curtain of two panels on a rod, and a person who walks through between them.
 
 use crate::instance::SceneInstance;
-use crate::scene::{FLOOR, Scene, with_self_collision};
+use crate::scene::{FLOOR, Scene, built, with_self_collision};
 use crate::walker::Walker;
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, Settings};
@@ -134,10 +134,7 @@ impl Scene for Doorway {
     const ABOUT: &'static str = "Its two panels part around who walks through, and close again.";
 
     fn build() -> SceneInstance {
-        match Self::hang(&Self::desc(40), 0.0) {
-            Ok(instance) => instance,
-            Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
-        }
+        built(Self::hang(&Self::desc(40), 0.0))
     }
 
     fn check(instance: &SceneInstance) -> core::result::Result<(), String> {

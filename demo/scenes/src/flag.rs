@@ -1,7 +1,7 @@
 //! Scene: a nylon flag on a pole in a gusty wind.
 
 use crate::instance::SceneInstance;
-use crate::scene::Scene;
+use crate::scene::{Scene, built};
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, GridDesc, Material, PinMode, Preset, Result, Settings, Wind};
 
@@ -72,10 +72,7 @@ impl Scene for Flag {
             cloth.set_wind(Self::wind(7.0))?;
             Ok(cloth)
         });
-        match cloth {
-            Ok(cloth) => cloth.into(),
-            Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
-        }
+        built(cloth)
     }
 
     fn check(instance: &SceneInstance) -> core::result::Result<(), String> {

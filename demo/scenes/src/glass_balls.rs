@@ -1,7 +1,7 @@
 //! Scene: a free sheet falls onto two balls of glass, and three smaller ones lie beside it.
 
 use crate::instance::SceneInstance;
-use crate::scene::{FLOOR, Scene, with_self_collision};
+use crate::scene::{FLOOR, Scene, built, with_self_collision};
 use glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, Settings, Shape};
 
@@ -76,10 +76,7 @@ impl Scene for GlassBalls {
             Self::add_balls(&mut cloth)?;
             Ok(cloth)
         });
-        match cloth {
-            Ok(cloth) => cloth.into(),
-            Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
-        }
+        built(cloth)
     }
 
     fn check(instance: &SceneInstance) -> core::result::Result<(), String> {

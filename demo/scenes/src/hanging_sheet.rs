@@ -1,7 +1,7 @@
 //! Scene: a sheet that is pinned along its top edge hangs in a light, gusty wind.
 
 use crate::instance::SceneInstance;
-use crate::scene::Scene;
+use crate::scene::{Scene, built};
 use glam::Vec3;
 use muslin::{Cloth, GridDesc, PinMode, Result, Wind};
 
@@ -54,10 +54,7 @@ impl Scene for HangingSheet {
     const ABOUT: &'static str = "Pinned along its top edge; gusts lift it, and it falls back.";
 
     fn build() -> SceneInstance {
-        match Self::create(40, PinMode::TopEdge) {
-            Ok(cloth) => cloth.into(),
-            Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
-        }
+        built(Self::create(40, PinMode::TopEdge))
     }
 
     fn check(instance: &SceneInstance) -> core::result::Result<(), String> {

@@ -2,8 +2,8 @@
 //! time them.
 //!
 //! Each scene is a type that implements [`Scene`]: it builds a [`SceneInstance`] (the cloths, and a
-//! ball, a figure or a walker that moves them if there is one), and checks that the cloth does what the scene
-//! is meant to show.
+//! ball, a figure or a walker that moves them if there is one), and checks that the cloth does what
+//! the scene is meant to show.
 
 pub mod disc;
 pub mod figure;

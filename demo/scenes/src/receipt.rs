@@ -7,7 +7,7 @@
 //! [`Sheet::unit`] is the length of a unit in metres.
 
 use crate::instance::SceneInstance;
-use crate::scene::Scene;
+use crate::scene::{Scene, built};
 use glam::{Vec2, Vec3};
 use muslin::{
     Cloth, ColliderDesc, GridDesc, Material, PinMode, Preset, Result, SelfCollision, Settings,
@@ -255,10 +255,7 @@ impl Scene for Receipt {
     const ABOUT: &'static str = "Paper on two pins: it hangs almost flat, and its lower end curls.";
 
     fn build() -> SceneInstance {
-        match Sheet::Paper.hang(false) {
-            Ok(cloth) => cloth.into(),
-            Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
-        }
+        built(Sheet::Paper.hang(false))
     }
 
     fn check(instance: &SceneInstance) -> core::result::Result<(), String> {

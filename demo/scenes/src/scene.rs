@@ -41,6 +41,14 @@ pub(crate) fn with_self_collision(settings: Settings, particles: u32) -> Setting
     }
 }
 
+/// Returns the scene that was created from a descriptor of this crate, which is always valid.
+pub(crate) fn built(created: muslin::Result<impl Into<SceneInstance>>) -> SceneInstance {
+    match created {
+        Ok(scene) => scene.into(),
+        Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
+    }
+}
+
 /// Builds a scene and runs `ticks` ticks of it.
 pub fn play<S: Scene>(ticks: u32) -> SceneInstance {
     let mut instance = S::build();

@@ -1,7 +1,7 @@
 //! Scene: a free sheet falls onto a ball, drapes over it, and its corners hang down in folds.
 
 use crate::instance::SceneInstance;
-use crate::scene::{Scene, with_self_collision};
+use crate::scene::{Scene, built, with_self_collision};
 use glam::Vec3;
 use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, Result, Settings, Shape, Wind};
 
@@ -74,10 +74,7 @@ impl Scene for SheetOnBall {
             Self::add_ball(&mut cloth)?;
             Ok(cloth)
         });
-        match cloth {
-            Ok(cloth) => cloth.into(),
-            Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
-        }
+        built(cloth)
     }
 
     fn check(instance: &SceneInstance) -> core::result::Result<(), String> {

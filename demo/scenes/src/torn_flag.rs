@@ -2,7 +2,7 @@
 
 use crate::flag::Flag;
 use crate::instance::SceneInstance;
-use crate::scene::Scene;
+use crate::scene::{Scene, built};
 use glam::Vec3;
 use muslin::{Cloth, Result, Wind};
 
@@ -55,10 +55,7 @@ impl Scene for TornFlag {
             cloth.set_wind(Self::wind(13.0))?;
             Ok(cloth)
         });
-        match cloth {
-            Ok(cloth) => cloth.into(),
-            Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
-        }
+        built(cloth)
     }
 
     fn check(instance: &SceneInstance) -> core::result::Result<(), String> {

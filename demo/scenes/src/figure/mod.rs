@@ -23,7 +23,7 @@ pub mod skeleton;
 mod tests;
 
 use crate::instance::SceneInstance;
-use crate::scene::Scene;
+use crate::scene::{Scene, built};
 use dressed::DressedBody;
 use muslin::{Material, Preset, Result, SelfCollision, Settings};
 
@@ -57,10 +57,7 @@ impl Scene for Figure {
     const ABOUT: &'static str = "It walks in a circle and kicks, and its clothes stay on.";
 
     fn build() -> SceneInstance {
-        match Self::dress(Material::preset(Preset::Cotton), Self::settings()) {
-            Ok(instance) => instance,
-            Err(error) => unreachable!("the descriptor of the scene is wrong: {error}"),
-        }
+        built(Self::dress(Material::preset(Preset::Cotton), Self::settings()))
     }
 
     fn check(instance: &SceneInstance) -> core::result::Result<(), String> {
