@@ -3,7 +3,10 @@
 
 import assert from "node:assert/strict";
 import { readFile, readdir } from "node:fs/promises";
+import { homedir } from "node:os";
+import { join } from "node:path";
 import { test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 
 const home = new URL(".", import.meta.resolve("muslin"));
@@ -31,6 +34,18 @@ for (const [name, limit] of Object.entries(MAX_SIZES)) {
     assert.ok(size <= limit, `${name} is ${size} bytes with gzip; the limit is ${limit}`);
   });
 }
+
+test("the modules name neither their features nor folders of the machine that built them", async () => {
+  const folders = [homedir(), fileURLToPath(new URL("../..", import.meta.url))];
+  for (const name of ["raw_bg.wasm", "plain_bg.wasm"]) {
+    const bytes = await read(name);
+    for (const folder of folders.map((path) => join(path, "/"))) {
+      assert.ok(!bytes.includes(folder), `${name} names ${folder}`);
+    }
+    const sections = WebAssembly.Module.customSections(await WebAssembly.compile(bytes), "target_features");
+    assert.equal(sections.length, 0, name);
+  }
+});
 
 test("the scripts that every page loads stay within their budget", async () => {
   const names = (await readdir(home)).filter((name) => name.endsWith(".js") && !OPTIONAL.test(name));

@@ -83,15 +83,15 @@ fn compile_with(package: &str, flags: &str, options: &[&str]) -> Result<PathBuf>
     cargo.args(["--target", TARGET, "--package", package]).args(options);
     let mut flags: Vec<String> = flags.split_whitespace().map(String::from).collect();
     flags.extend(c::remapped_paths()?);
-    // These replace all flags from the environment. The separator is that of the variable.
+    // This replaces flags from the environment. It separates flags by the character 0x1f.
     cargo.env("CARGO_ENCODED_RUSTFLAGS", flags.join("\x1f"));
     shell::run(&mut cargo)?;
     let built = package.replace('-', "_") + ".wasm";
     Ok(files::target().join(TARGET).join("release").join(built))
 }
 
-/// Writes the module and its script. The module says which features it uses, which no engine reads;
-/// that goes.
+/// Writes the module and its script. The section that lists the features of the module is removed,
+/// since no engine reads it.
 fn write(bindgen: &mut Bindgen, dir: &Path, name: &str) -> Result {
     let during = || String::from("wasm-bindgen");
     let mut output = bindgen
