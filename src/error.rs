@@ -91,6 +91,13 @@ pub enum Error {
         /// The reason.
         why: &'static str,
     },
+    /// The library was built without a feature of the crate that the request needs.
+    MissingFeature {
+        /// The request, e.g. "surface self-collision".
+        what: &'static str,
+        /// Name of the feature.
+        feature: &'static str,
+    },
     /// This version does not support the requested feature.
     Unsupported {
         /// The feature.
@@ -121,6 +128,9 @@ impl fmt::Display for Error {
             }
             Self::Full { what } => write!(f, "no room is left for {what}"),
             Self::BadSave { why } => write!(f, "`buffer` must hold a saved cloth: {why}"),
+            Self::MissingFeature { what, feature } => {
+                write!(f, "{what} needs the feature `{feature}`, which this build does not have")
+            }
             Self::Unsupported { what } => write!(f, "{what} is not supported"),
         }
     }

@@ -70,10 +70,33 @@
 //!
 //! # Features
 //!
+//! Four parts can be left out to make programs smaller; by default all are there:
+//!
+//! | feature | without it |
+//! | --- | --- |
+//! | `self-collision` | [`SelfCollision::Surface`] is refused; [`SelfCollision::Particles`] works |
+//! | `facet-colliders` | [`Shape::Convex`], [`Shape::Mesh`] and [`Shape::Heightfield`] are refused; `Cloth::update_collider` and `Cloth::collide_with` do not exist |
+//! | `cut` | `Cloth::cut` does not exist; tears do |
+//! | `save` | `Cloth::save` and `Cloth::restore` do not exist |
+//!
+//! Refusals are [`Error::MissingFeature`]. A save that needs a part which the build lacks is refused
+//! too. What a build has moves with the same bits as in a build with everything.
+//!
 //! - `parallel` (off by default) adds `Cloth::set_threads`: one large cloth uses several threads of
 //!   [rayon](https://docs.rs/rayon), with the same bits.
 //!
 //! Positions and directions are types of [`glam`], which is re-exported.
+
+// Without a feature nothing calls the helpers that only its part needs.
+#![cfg_attr(
+    not(all(
+        feature = "cut",
+        feature = "facet-colliders",
+        feature = "save",
+        feature = "self-collision"
+    )),
+    allow(dead_code, unused_imports)
+)]
 
 mod arena;
 mod cloth;

@@ -40,7 +40,7 @@ use crate::model::tethers::Tethers;
 use crate::solver::bend;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::profile::Profile;
-use crate::solver::self_collide::surface::warm_start::WarmStart;
+use crate::solver::self_collide::contact_forces::WarmStart;
 use crate::solver::stretch::{damping_scratch, line_scratch};
 use crate::solver::world::{TickScratch, World};
 use crate::state::anchors::AnchorConstraints;

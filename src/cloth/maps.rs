@@ -15,7 +15,7 @@ fn refresh_contact_distances(world: &mut World) {
     world.scratch.contacts.nearby.invalidate();
     world.rebuild_particle_collision();
     if let Some(surface) = &mut world.surface_collision {
-        surface.tick_bounds.is_valid = false;
+        surface.invalidate();
     }
 }
 

@@ -19,10 +19,14 @@ mod change_history;
 pub(crate) mod changes;
 mod colliders;
 mod crease;
+#[cfg(feature = "cut")]
 mod cut;
+#[cfg(feature = "facet-colliders")]
+mod deform_collider;
 pub(crate) mod desc;
 mod grabs;
 mod interpolated_surface;
+#[cfg(feature = "facet-colliders")]
 mod layers;
 mod maps;
 pub(crate) mod mass_properties;
@@ -31,9 +35,11 @@ mod outputs;
 mod parameters;
 mod particle_state;
 mod pins;
+#[cfg(feature = "save")]
 mod postcard;
 pub(crate) mod query;
 mod ray_tree;
+#[cfg(feature = "save")]
 mod save;
 mod sew;
 pub(crate) mod skin;

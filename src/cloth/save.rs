@@ -33,7 +33,7 @@ use crate::model::material::Material;
 use crate::model::plate_elements::PerKind;
 use crate::model::tethers::TetherSet;
 use crate::solver::integrate::sleep_timer::SleepTimer;
-use crate::solver::self_collide::surface::warm_start::WarmStart;
+use crate::solver::self_collide::contact_forces::WarmStart;
 use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::{AttachmentPose, Attachments, MAX_ATTACHMENTS};

@@ -50,7 +50,7 @@ impl CollisionShape {
             Self::Cuboid(cuboid, _) => {
                 Aabb::from_points([-cuboid.half_extents, cuboid.half_extents])
             }
-            Self::ConvexHull(body, _) => body.bounds,
+            Self::ConvexHull(body, _) => body.bounds(),
             Self::TriangleSurface(surface, _) => surface.bounds(),
             Self::Heightfield(terrain) => terrain.bounds(),
         }
@@ -80,9 +80,7 @@ impl CollisionShape {
             Self::Sphere(solid) => solid.signed_distance(p).0,
             Self::Capsule(solid) => solid.signed_distance(p).0,
             Self::Cuboid(solid, _) => solid.signed_distance(p).0,
-            Self::ConvexHull(body, _) => {
-                body.faces.iter().fold(f32::NEG_INFINITY, |most, face| max(face.distance(p), most))
-            }
+            Self::ConvexHull(body, _) => body.largest_distance(p),
             Self::TriangleSurface(..) => 0.0,
             Self::Heightfield(terrain) => terrain.signed_distance(p).map_or(0.0, |one| one.0),
         };
@@ -94,7 +92,7 @@ impl CollisionShape {
     pub fn depth_of_center(&self, surface_point: Vec3, outward: Vec3) -> f32 {
         match self {
             Self::Cuboid(..) => surface_point.dot(outward),
-            Self::ConvexHull(body, _) => (surface_point - body.bounds.center()).dot(outward),
+            Self::ConvexHull(body, _) => (surface_point - body.bounds().center()).dot(outward),
             _ => f32::INFINITY,
         }
     }

@@ -12,6 +12,7 @@
 
 use crate::geometry::aabb::Aabb;
 use crate::geometry::signed_distance::SignedDistance;
+use crate::math::max;
 use glam::Vec3;
 
 /// A convex polyhedron.
@@ -39,6 +40,16 @@ impl FacePlane {
 }
 
 impl Polyhedron {
+    /// Returns the bounds [m].
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// Returns the largest signed distance of a point from the plane of a face [m].
+    pub fn largest_distance(&self, p: Vec3) -> f32 {
+        self.faces.iter().fold(f32::NEG_INFINITY, |most, face| max(face.distance(p), most))
+    }
+
     /// Pushes the faces that may have the largest distance for a point within `radius` [m] of `p`.
     pub fn push_candidate_faces(&self, p: Vec3, radius: f32, candidates: &mut Vec<u32>) {
         let distances = self.faces.iter().map(|face| face.distance(p));

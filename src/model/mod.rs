@@ -21,6 +21,7 @@ pub(crate) mod coloring;
 pub(crate) mod constraints;
 pub(crate) mod crack_tips;
 pub(crate) mod creases;
+#[cfg(feature = "cut")]
 pub(crate) mod cut_links;
 pub(crate) mod dynamic_links;
 pub(crate) mod folds;

@@ -108,7 +108,7 @@ impl World {
             collision.invalidate();
         }
         if let Some(surface) = &mut self.surface_collision {
-            surface.tick_bounds.is_valid = false;
+            surface.invalidate();
         }
         // Rounding may change distances: measure pins again as a restored cloth does, and look for
         // layers that it moved through each other.

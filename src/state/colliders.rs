@@ -88,6 +88,10 @@ pub(crate) struct ColliderBody {
     /// (BDF2) spreads it over the next substeps.
     pub pending: Impulse,
     /// The deformation of a mesh, once the host has given new vertices.
+    #[cfg_attr(
+        not(feature = "facet-colliders"),
+        serde(deserialize_with = "super::no_facets::skip_deformation")
+    )]
     deformation: Option<Box<Deformation>>,
     /// Whether it is the surface of another cloth, which `collide_with` added.
     pub is_layer: bool,
@@ -238,7 +242,7 @@ impl ColliderBody {
     /// A vertex of a mesh where it is at the start of the next tick, in the local frame [m].
     pub fn vertex(&self, i: usize) -> Vec3 {
         match &self.deformation {
-            Some(deformation) => deformation.vertices().last[i] + self.center,
+            Some(deformation) => deformation.vertex(i) + self.center,
             None => self.desc.positions[i],
         }
     }

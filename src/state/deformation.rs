@@ -77,8 +77,13 @@ impl Deformation {
         self.surface.as_ref().map(|surface| surface.shape())
     }
 
+    /// A vertex at the start of the next tick [m].
+    pub fn vertex(&self, i: usize) -> Vec3 {
+        self.last[i]
+    }
+
     /// The vertices at both ends of the next tick.
-    pub fn vertices(&self) -> MovingVertices<'_> {
+    fn vertices(&self) -> MovingVertices<'_> {
         MovingVertices { last: &self.last, next: &self.next }
     }
 

@@ -1,7 +1,7 @@
 //! Solver settings, and the time integration scheme that follows from them. Settings may change
 //! between ticks.
 
-use crate::error::{Result, check, check_finite};
+use crate::error::{Error, Result, check, check_finite};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -156,6 +156,10 @@ impl Settings {
             "settings.max_displacement",
             "be above 0 and finite",
         )?;
+        if cfg!(not(feature = "self-collision")) && self.self_collision == SelfCollision::Surface {
+            let (what, feature) = ("surface self-collision", "self-collision");
+            return Err(Error::MissingFeature { what, feature });
+        }
         check(not_negative(self.max_stretch), "settings.max_stretch", "be at least 0 and finite")?;
         check(
             not_negative(self.self_distance),

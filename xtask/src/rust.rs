@@ -40,7 +40,27 @@ pub fn lint() -> Result {
     let mut web = shell::cargo(&["clippy", "--lib", "--target", wasm::TARGET]);
     web.args(["muslin-js", "muslin-demo", "muslin-plain"].map(|name| format!("--package={name}")));
     shell::run(web.args(DENY_WARNINGS))?;
+    lint_features()?;
     check_docs()
+}
+
+/// The features of the crate that can be left out.
+const PARTS: [&str; 4] = ["cut", "facet-colliders", "save", "self-collision"];
+
+/// Fails where clippy warns without one of the parts, without all, and in the module of
+/// `muslin/light`.
+fn lint_features() -> Result {
+    let lint_without = |left_out: &[&str]| {
+        let kept: Vec<_> = PARTS.into_iter().filter(|part| !left_out.contains(part)).collect();
+        let features = format!("--features={}", kept.join(","));
+        let mut cargo = shell::cargo(&["clippy", "--package=muslin", "--lib"]);
+        cargo.args(["--no-default-features", &features]).args(DENY_WARNINGS);
+        shell::run(&mut cargo)
+    };
+    PARTS.iter().try_for_each(|part| lint_without(&[part]))?;
+    lint_without(&PARTS)?;
+    let light = ["clippy", "--lib", "--package=muslin-js", "--no-default-features", "--target"];
+    shell::run(shell::cargo(&light).arg(wasm::TARGET).args(DENY_WARNINGS))
 }
 
 /// What looks like a link in a doc comment and is a unit.
@@ -71,14 +91,19 @@ fn check_docs() -> Result {
 
 /// Runs all tests and examples of all crates.
 ///
-/// Cargo unites the features of the packages that it builds together. So three builds are quicker
+/// Cargo unites the features of the packages that it builds together. So several builds are quicker
 /// than one: `xtask` has been built with its own features, the documents show `--package muslin`,
 /// and `muslin-js`, which has no Rust tests, would change the features of what all others use.
+/// `muslin-features` has the crate without its optional parts.
 pub fn test() -> Result {
     shell::run(&mut cargo_test(&["--package=muslin"]))?;
     shell::run(&mut cargo_test(&["--package=xtask"]))?;
-    let others = ["--workspace", "--exclude=muslin", "--exclude=xtask", "--exclude=muslin-js"];
-    shell::run(&mut cargo_test(&others))
+    let others = ["muslin", "xtask", "muslin-js", "muslin-features"];
+    let others = others.map(|package| format!("--exclude={package}"));
+    shell::run(cargo_test(&["--workspace"]).args(others))?;
+    // Without optimisation: the tests are short, and no other build has these features.
+    let quick = ["--config", "profile.dev.package.muslin.opt-level=0"];
+    shell::run(cargo_test(&["--package=muslin-features"]).args(quick))
 }
 
 fn lint_library() -> Result {

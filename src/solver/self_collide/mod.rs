@@ -16,6 +16,11 @@
 //! Invariant: at most one of both boxes exists.
 
 mod connected_pieces;
+pub(crate) mod contact_forces;
 pub(crate) mod particle_contacts;
 pub(crate) mod particle_pairs;
+#[cfg_attr(not(feature = "self-collision"), path = "no_surface.rs")]
 pub(crate) mod surface;
+
+/// Largest gap between layers [mean rest lengths].
+pub(crate) const MAX_GAP: f32 = 0.5;

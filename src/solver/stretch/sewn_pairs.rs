@@ -187,7 +187,7 @@ fn tear_stitches(world: &mut World) {
     let per_pull = 1.0 / (world.substeps as f32 * step * step);
     let apart = match (&world.particle_collision, &world.surface_collision) {
         (Some(collision), _) => collision.distance,
-        (None, Some(collision)) => PARTED_GAPS * collision.gap,
+        (None, Some(collision)) => PARTED_GAPS * collision.gap(),
         (None, None) => 0.0,
     };
     let mut has_changed = false;
@@ -316,7 +316,7 @@ impl World {
             collision.invalidate();
         }
         if let Some(collision) = &mut self.surface_collision {
-            collision.tick_bounds.is_valid = false;
+            collision.invalidate();
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Both split vertices or edges of the triangle mesh and then update everything that is derived
 //! from the mesh: masses, pins, anchors, links, tethers, crack tips and piece labels.
 
+#[cfg(feature = "cut")]
 pub(crate) mod cut;
 pub(crate) mod piece_labels;
 pub(crate) mod piece_members;

@@ -30,8 +30,9 @@ use crate::math::wide4::{Float4, Wide4};
 use crate::math::{max, min};
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::particle_stage::interleaved::translate_wide;
+use crate::solver::self_collide::contact_forces::{ContactForce, WarmStart};
 use crate::solver::self_collide::surface::contact::{Contact, distance_along_normal};
-use crate::solver::self_collide::surface::warm_start::{ContactForce, WarmStart, WarmStartIndex};
+use crate::solver::self_collide::surface::warm_start::WarmStartIndex;
 use glam::Vec3;
 
 /// Gauss–Seidel sweeps per substep, in alternating directions.

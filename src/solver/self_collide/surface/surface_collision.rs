@@ -8,7 +8,7 @@
 //! Invariant: nothing here is state. It can be rebuilt at any tick without changing the result; the
 //! forces for warm starts are kept elsewhere ([`WarmStart`]).
 //!
-//! [`WarmStart`]: super::warm_start::WarmStart
+//! [`WarmStart`]: crate::solver::self_collide::contact_forces::WarmStart
 
 use crate::math::wide4::Float4;
 use crate::mesh::Mesh;
@@ -103,6 +103,16 @@ impl SurfaceCollision {
             is_new_tick: false,
             gap: 0.0,
         }
+    }
+
+    /// Gap between layers in the last tick [m].
+    pub fn gap(&self) -> f32 {
+        self.gap
+    }
+
+    /// Makes the next tick search all pairs again.
+    pub fn invalidate(&mut self) {
+        self.tick_bounds.is_valid = false;
     }
 
     /// Heap memory [bytes].

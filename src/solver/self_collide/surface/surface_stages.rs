@@ -21,6 +21,7 @@ use crate::model::maps::Map;
 use crate::solver::collide;
 use crate::solver::integrate::momentum;
 use crate::solver::particle_stage::interleaved;
+use crate::solver::self_collide::MAX_GAP;
 use crate::solver::self_collide::surface::contact_solver::{self, LayerFriction};
 use crate::solver::self_collide::surface::detection::{DetectedContacts, Detector};
 use crate::solver::self_collide::surface::rest_gap::{PaintedGap, RestGap};
@@ -31,9 +32,8 @@ use crate::solver::world::World;
 use crate::state::settings::SelfCollision;
 use glam::Vec3;
 
-/// Least and largest gap between layers [mean rest lengths].
+/// Least gap between layers [mean rest lengths].
 const MIN_GAP: f32 = 0.005;
-pub(crate) const MAX_GAP: f32 = 0.5;
 
 /// Slack of the tick bounds [mean rest lengths].
 const TICK_SLACK: f32 = 0.2;

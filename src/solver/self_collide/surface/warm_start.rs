@@ -7,88 +7,15 @@
 //! Forces are stored, not impulses, so that the step size may change between substeps. The force
 //! that holds up a stack keeps its size when substeps become longer; that of an impact m v / h falls
 //! as 1 / h, and would throw layers apart if it did not. So all fall as 1 / h then, and the solver
-//! adds what a stack lacks. They are part of a saved state and of the state hash.
+//! adds what a stack lacks. `contact_forces` stores them.
 //!
-//! Reads and writes its own lists. [`WarmStartIndex`] is a hash table with open addressing, from
-//! the particles of a contact to its force.
+//! Reads the forces; writes [`WarmStartIndex`], a hash table with open addressing from the particles
+//! of a contact to its force.
 //!
-//! Invariant: forces are stored in the order of their contacts, and each one pushes (`normal > 0`)
-//! and is finite.
+//! Invariant: forces are stored in the order of their contacts.
 
-use crate::math::reserve::ReserveTotal;
+use crate::solver::self_collide::contact_forces::{ContactForce, FORCES_PER_PARTICLE, WarmStart};
 use crate::solver::self_collide::surface::contact::{Contact, ContactKind};
-use glam::Vec3;
-use serde::{Deserialize, Serialize};
-
-/// Forces per particle that memory is reserved for.
-const FORCES_PER_PARTICLE: usize = 8;
-
-/// The force of a contact on its first side [N].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct ContactForce {
-    pub ids: [u32; 4],
-    pub kind: ContactKind,
-    /// Along the contact normal.
-    pub normal: f32,
-    /// Friction.
-    pub tangent: Vec3,
-}
-
-impl ContactForce {
-    fn is_valid(&self) -> bool {
-        self.normal > 0.0 && self.normal.is_finite() && self.tangent.is_finite()
-    }
-}
-
-/// All contact forces of the last substep, in the order of their contacts.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct WarmStart(Vec<ContactForce>);
-
-impl WarmStart {
-    /// Reserves memory for the forces of a cloth of `particles` particles.
-    pub fn reserve(&mut self, particles: usize) {
-        let capacity = FORCES_PER_PARTICLE * particles;
-        self.0.reserve_total(capacity);
-    }
-
-    pub fn clear(&mut self) {
-        self.0.clear();
-    }
-
-    /// Reduces the forces when the substep length changes from `before` to `after` [s] and grows.
-    pub fn change_step(&mut self, before: f32, after: f32) {
-        if before < after {
-            let share = before / after;
-            self.0.iter_mut().for_each(|force| {
-                force.normal *= share;
-                force.tangent *= share;
-            });
-            // The smallest forces round to zero.
-            self.0.retain(ContactForce::is_valid);
-        }
-    }
-
-    pub fn iter(&self) -> impl Iterator<Item = &ContactForce> {
-        self.0.iter()
-    }
-
-    /// Heap memory [bytes].
-    pub fn bytes(&self) -> usize {
-        size_of::<ContactForce>() * self.0.capacity()
-    }
-
-    /// Whether all forces are valid for a cloth of `particles` particles.
-    pub fn is_valid(&self, particles: usize) -> bool {
-        let has_ids = |force: &ContactForce| force.ids.iter().all(|id| (*id as usize) < particles);
-        self.0.iter().all(|force| has_ids(force) && force.is_valid())
-    }
-
-    /// Replaces all forces. Those that do not push or are not finite are dropped.
-    pub(crate) fn replace(&mut self, forces: impl Iterator<Item = ContactForce>) {
-        self.0.clear();
-        self.0.extend(forces.filter(ContactForce::is_valid));
-    }
-}
 
 /// Hash table from contacts to their forces.
 #[derive(Clone, Debug)]
