@@ -14,7 +14,7 @@ const scripts = (await readdir(dist)).filter((name) => name.endsWith(".js"));
 
 /** Scripts that only some pages load. */
 const OPTIONAL = [
-  ...["bytes.js", "inline.js", "no-wasm.js", "heap.js", "code.js"],
+  ...["bytes.js", "inline.js", "light.js", "no-wasm.js", "heap.js", "code.js"],
   ...["three.js", "three-with.js", "pointers.js", "react.js"],
 ];
 
@@ -22,6 +22,7 @@ const OPTIONAL = [
 const parts = [
   ["module with SIMD", ["raw_bg.wasm"], ["index.js"]],
   ["module without SIMD, in its place", ["plain_bg.wasm"], ["index.js", "no-simd"]],
+  ["module of `muslin/light`, in its place", ["light_bg.wasm"], ["light.js"]],
   ["`muslin/inline`, in place of a module", ["inline.js", "bytes.js"], ["inline.js"]],
   ["`muslin/no-wasm`, in place of a module", ["no-wasm.js", "heap.js", "code.js"], ["no-wasm.js"]],
   ["scripts", scripts.filter((name) => !OPTIONAL.includes(name))],

@@ -14,13 +14,18 @@ const read = (name) => readFile(new URL(name, home));
 const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** The largest size of each file with gzip [B]. */
-const MAX_SIZES = { "raw_bg.wasm": 476_600, "plain_bg.wasm": 442_250, "code.js": 558_200 };
+const MAX_SIZES = {
+  "raw_bg.wasm": 476_600,
+  "plain_bg.wasm": 442_250,
+  "light_bg.wasm": 342_000,
+  "code.js": 558_200,
+};
 
 /** The largest size of all scripts that every page loads, with gzip [B]. */
 const MAX_SCRIPT_SIZE = 15_150;
 
 /** Scripts that only some pages load. */
-const OPTIONAL = /^(bytes|inline|no-wasm|heap|code|three|three-with|pointers|react)\.js$/;
+const OPTIONAL = /^(bytes|inline|light|no-wasm|heap|code|three|three-with|pointers|react)\.js$/;
 
 /**
  * V8 does not optimise a JavaScript function longer than this [B], and other engines are slow to
@@ -37,7 +42,7 @@ for (const [name, limit] of Object.entries(MAX_SIZES)) {
 
 test("the modules name neither their features nor folders of the machine that built them", async () => {
   const folders = [homedir(), fileURLToPath(new URL("../..", import.meta.url))];
-  for (const name of ["raw_bg.wasm", "plain_bg.wasm"]) {
+  for (const name of ["raw_bg.wasm", "plain_bg.wasm", "light_bg.wasm"]) {
     const bytes = await read(name);
     for (const folder of folders.map((path) => join(path, "/"))) {
       assert.ok(!bytes.includes(folder), `${name} names ${folder}`);
@@ -80,7 +85,7 @@ function functionSizes(bytes) {
   return [];
 }
 
-for (const name of ["raw_bg.wasm", "plain_bg.wasm"]) {
+for (const name of ["raw_bg.wasm", "plain_bg.wasm", "light_bg.wasm"]) {
   test(`no function of ${name} is too long for engines to optimise`, async () => {
     const lengths = functionSizes(await read(name));
     assert.ok(lengths.length > 300, `only ${lengths.length} functions were found`);

@@ -30,6 +30,7 @@ import init, {
   type WriteDesc,
 } from "muslin";
 import initInline from "muslin/inline";
+import initLight, { Cloth as LightCloth } from "muslin/light";
 import initWithout, { Cloth as ClothWithout, initSync as initWithoutSync } from "muslin/no-wasm";
 import { Pointers } from "muslin/pointers";
 import { ClothGeometry } from "muslin/three";
@@ -55,6 +56,9 @@ await initWithout("raw_bg.wasm");
 const without: Cloth = ClothWithout.grid({ columns: 8, rows: 8 });
 const pulls: boolean = new Pointers(without, { radius: 0.1 }).press(1, [0, 0, 1], [0, 0, -1]);
 await initInline();
+await initLight();
+await initLight(fetch("light_bg.wasm"));
+const light: Cloth = LightCloth.grid({ columns: 8, rows: 8 });
 
 const desc: GridDesc = {
   columns: 40,

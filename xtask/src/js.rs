@@ -15,7 +15,8 @@ pub fn build() -> Result {
     files::once_in_run("npm-package", build_package)
 }
 
-/// Builds three modules (with vectors, without, and as JavaScript), scripts and licences.
+/// Builds four modules (with vectors, without, of `muslin/light`, and as JavaScript), scripts and
+/// licences.
 fn build_package() -> Result {
     let scripts = files::root().join("bindings/js/package");
     if !scripts.is_dir() {
@@ -26,19 +27,23 @@ fn build_package() -> Result {
     files::create_empty_dir(&dir())?;
     let vectors = module("vectors", |package| wasm::compile(package, wasm::FLAGS))?;
     let plain = module("plain", |package| wasm::compile(package, wasm::PLAIN))?;
+    let light = module("light", wasm::compile_light)?;
     let small = module("small", wasm::compile_small)?;
-    let script = files::read(&vectors.join("raw_bg.js"))?;
-    for other in [&plain, &small] {
-        if files::read(&other.join("raw_bg.js"))? != script {
-            return Err(Failure::new(
-                "wasm-bindgen wrote different scripts for the modules with and without vectors",
-            ));
+    // Minified, because comments and names of arguments may differ.
+    for built in [&vectors, &plain, &light, &small] {
+        tools::minify(&built.join("raw_bg.js"), &built.join("raw.js"), "--minify")?;
+    }
+    let script = files::read(&vectors.join("raw.js"))?;
+    for other in [&plain, &light, &small] {
+        if files::read(&other.join("raw.js"))? != script {
+            return Err(Failure::new("wasm-bindgen wrote different scripts for the modules"));
         }
     }
-    tools::minify(&vectors.join("raw_bg.js"), &dir().join("raw.js"), "--minify")?;
+    files::write(&dir().join("raw.js"), &script)?;
     let code = no_wasm::convert(&small.join("raw_bg.wasm"), &small)?;
-    let [vectors, plain] = [vectors, plain].map(|dir| dir.join("raw_bg.wasm"));
-    for (from, name) in [(vectors, "raw_bg.wasm"), (plain, "plain_bg.wasm"), (code, "code.js")] {
+    let modules = [(vectors, "raw_bg.wasm"), (plain, "plain_bg.wasm"), (light, "light_bg.wasm")];
+    let modules = modules.map(|(dir, name)| (dir.join("raw_bg.wasm"), name));
+    for (from, name) in modules.into_iter().chain([(code, "code.js")]) {
         std::fs::copy(from, dir().join(name)).during(|| format!("writing {name}"))?;
     }
     files::copy_dir(&scripts, &dir())?;

@@ -26,6 +26,9 @@ pub const PLAIN: &str = "-C target-feature=-simd128 -C llvm-args=--disable-lsr \
 const OLD: &str = "-C target-feature=-simd128,-nontrapping-fptoint,-sign-ext \
                    -C llvm-args=--disable-lsr -C llvm-args=-inline-threshold=1";
 
+/// Leaves out what `muslin/light` does not have, see `bindings/js/Cargo.toml`.
+const LIGHT: [&str; 1] = ["--no-default-features"];
+
 /// Compiles the simulation for size, and the exports for the least size.
 const SMALL: [&str; 4] = [
     "--config",
@@ -69,6 +72,11 @@ fn remove_feature(module: &mut [u8], feature: &str) {
 /// Compiles the library of `package` to a module with the compiler flags `flags`; returns its path.
 pub fn compile(package: &str, flags: &str) -> Result<PathBuf> {
     compile_with(package, flags, &[])
+}
+
+/// Compiles the library of `package` to a module for `muslin/light`; returns its path.
+pub fn compile_light(package: &str) -> Result<PathBuf> {
+    compile_with(package, FLAGS, &LIGHT)
 }
 
 /// Compiles the library of `package` to a module of small functions that wasm2js can translate;

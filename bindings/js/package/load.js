@@ -1,4 +1,5 @@
-// Loading of the WebAssembly module: once, however often and wherever init() is called.
+// Loading of the WebAssembly module: once, however often and wherever init() is called; and its address
+// beside the scripts of the package.
 
 import { check, isBytes } from "./check.js";
 import { readFileUrl } from "./file.js";
@@ -7,7 +8,21 @@ import { IMPORTS, isLoaded, setInstance } from "./memory.js";
 const SOURCE_RULE = "be a URL, Request, Response, bytes or WebAssembly.Module";
 
 /** What to do where the module cannot be loaded. */
-export const ADVICE = "import muslin/inline, which has the module inside, or pass the address of raw_bg.wasm to init()";
+const ADVICE = "import muslin/inline, which has the module inside, or pass the address of raw_bg.wasm to init()";
+
+/** A module of one function that returns a v128: it is valid only in engines with SIMD. */
+const SIMD_MODULE = [
+  0, 97, 115, 109, 1, 0, 0, 0, // magic, version
+  1, 5, 1, 96, 0, 1, 123, // type: () -> v128
+  3, 2, 1, 0, // function 0 has that type
+  10, 8, 1, 6, 0, 65, 0, 253, 15, 11, // i32.const 0, i8x16.splat
+];
+
+/**
+ * The folder in which Vite's development server puts the bundled scripts of packages, without their
+ * wasm modules. The server also serves the package itself, where it is installed.
+ */
+const VITE_DEPS = /\/node_modules\/\.vite\/deps\/(?=[^/]*$)/;
 
 let loading;
 
@@ -83,4 +98,20 @@ function checkModule(module) {
   const isValid = exported.includes("memory") && exported.includes("rawcloth_grid");
   check(isValid, "source", "be the raw_bg.wasm of this package");
   return module;
+}
+
+/** Returns whether the engine has SIMD. */
+export function hasSimd() {
+  return WebAssembly.validate(new Uint8Array(SIMD_MODULE));
+}
+
+/** Returns the address that `make` computes, as a server has it. */
+export function addressOf(make) {
+  try {
+    const url = make();
+    const served = url.href.replace(VITE_DEPS, "/node_modules/muslin/");
+    return served === url.href ? url : new URL(served);
+  } catch (cause) {
+    throw new Error(`Muslin cannot find its module: the script has no address here: ${ADVICE}`, { cause });
+  }
 }

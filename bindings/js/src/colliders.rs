@@ -55,19 +55,6 @@ impl RawCloth {
         self.cloth.teleport_collider(collider, position, rotation).map_err(to_js_error)
     }
 
-    /// Gives a mesh collider new vertices, x y z x y z … [m].
-    pub fn update_collider(&mut self, collider: u32, positions: &[f32]) -> Result<()> {
-        let positions = packing::to_vectors(positions);
-        self.cloth.update_collider(Collider::from_bits(collider), &positions).map_err(to_js_error)
-    }
-
-    /// Makes the surface of another cloth a collider, and returns its number; updates the collider
-    /// with this number unless it is 0.
-    pub fn collide_with(&mut self, other: &RawCloth, collider: u32) -> Result<u32> {
-        let known = (collider != 0).then(|| Collider::from_bits(collider));
-        self.cloth.collide_with(&other.cloth, known).map(Collider::to_bits).map_err(to_js_error)
-    }
-
     /// Returns where a collider is after the last tick: position and rotation.
     pub fn collider_pose(&self, collider: u32) -> Result<Vec<f64>> {
         let collider = Collider::from_bits(collider);

@@ -1,4 +1,4 @@
-//! Creation of cloths, save and restore, and the default values of descriptors.
+//! Creation of cloths, and the default values of descriptors.
 //!
 //! JavaScript asks for the defaults, writes the fields of the caller over them and passes the lists
 //! back, so the defaults are stated in the core only.
@@ -23,7 +23,7 @@ const MAX_PARTICLES: usize = 1 << 17;
 /// The allocator alone grows it in steps of 64 KiB. With each, V8 counts the whole memory as new and
 /// soon collects garbage, which takes several times as long as making the cloth.
 #[inline(never)]
-fn reserve(particles: usize) {
+pub(crate) fn reserve(particles: usize) {
     let mut room = Vec::<u8>::new();
     // If it fails, the memory may still suffice.
     room.try_reserve_exact(particles.min(MAX_PARTICLES) * BYTES_PER_PARTICLE).ok();
@@ -65,18 +65,6 @@ impl RawCloth {
             ..packing::unpack_mesh(desc)
         };
         Cloth::mesh(&desc).map(Self::new).map_err(to_js_error)
-    }
-
-    /// Creates a cloth from the bytes that `save` returned.
-    pub fn restore(buffer: &[u8]) -> Result<RawCloth> {
-        // A cloth without tears is saved as 84 bytes per particle.
-        reserve(buffer.len() / 84);
-        Cloth::restore(buffer).map(Self::new).map_err(to_js_error)
-    }
-
-    /// Returns the whole state of the cloth as bytes.
-    pub fn save(&self) -> Vec<u8> {
-        self.cloth.save()
     }
 
     /// Returns the 64-bit hash of the state: the lower 32 bits, then the upper 32.

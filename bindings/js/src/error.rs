@@ -11,7 +11,17 @@ pub(crate) type Result<T, E = JsError> = core::result::Result<T, E>;
 
 /// Converts an error of the core to a JavaScript `Error` with the names in camelCase.
 pub(crate) fn to_js_error(error: Error) -> JsError {
+    #[cfg(not(feature = "full"))]
+    if let Error::MissingFeature { what, .. } = error {
+        return missing(what);
+    }
     JsError::new(&quoted_names_to_camel_case(&error.to_string()))
+}
+
+/// Returns the error of a call that only the full module has.
+#[cfg(not(feature = "full"))]
+pub(crate) fn missing(what: &str) -> JsError {
+    JsError::new(&[what, " is not in muslin/light; import it from \"muslin\""].concat())
 }
 
 /// Turns `snake_case` into `snakeCase`, only between backticks.

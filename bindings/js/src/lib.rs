@@ -20,6 +20,8 @@ mod colliders;
 mod create;
 mod error;
 mod frame;
+#[cfg_attr(not(feature = "full"), path = "light.rs")]
+mod full;
 mod grabs;
 mod packing;
 mod particles;

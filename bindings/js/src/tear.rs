@@ -1,4 +1,4 @@
-//! Cuts, creases and tears that the caller asks for.
+//! Creases and tears that the caller asks for.
 
 use crate::RawCloth;
 use crate::error::{Result, to_js_error};
@@ -7,14 +7,6 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
 impl RawCloth {
-    /// Cuts the cloth with a swept segment, and returns how many edges opened. `blade` holds both
-    /// ends of the segment and its sweep.
-    pub fn cut(&mut self, blade: &[f64]) -> Result<u32> {
-        let mut blade = Reader::new(blade);
-        let (from, to, sweep) = (blade.vector(), blade.vector(), blade.vector());
-        self.cloth.cut(from, to, sweep).map_err(to_js_error)
-    }
-
     /// Adds a fold of `angle` [rad] along a line. `line` holds both ends of the line.
     pub fn crease(&mut self, line: &[f64], angle: f32) -> Result<()> {
         let mut line = Reader::new(line);

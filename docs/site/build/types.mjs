@@ -6,7 +6,7 @@ import { Application } from "typedoc";
 import { filesIn } from "./files.mjs";
 
 /** The modules that users import. */
-const MODULES = ["index", "three", "three-with", "react", "pointers", "inline", "no-wasm"];
+const MODULES = ["index", "three", "three-with", "react", "pointers", "inline", "light", "no-wasm"];
 
 /** How TypeScript reads them: by themselves, without the types of any other package. */
 const OPTIONS = {
