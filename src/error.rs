@@ -107,31 +107,63 @@ pub enum Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message())
+    }
+}
+
+impl Error {
+    /// Returns the message. It is put together without `core::fmt`, which a wasm module then does not
+    /// contain; for language bindings.
+    #[doc(hidden)]
+    pub fn message(&self) -> String {
         match self {
-            Self::BadValue { field, must } => write!(f, "`{field}` must {must}"),
-            Self::BadEntry { field, index, must } => write!(f, "`{field}[{index}]` must {must}"),
+            Self::BadValue { field, must } => ["`", field, "` must ", must].concat(),
+            Self::BadEntry { field, index, must } => {
+                ["`", field, "[", &digits(*index), "]` must ", must].concat()
+            }
             Self::BadCount { field, count, needed } => {
-                write!(f, "`{field}` must have {needed} entries, one per particle, but has {count}")
+                let [count, needed] = [count, needed].map(|number| digits(*number));
+                let entries = " entries, one per particle, but has ";
+                ["`", field, "` must have ", &needed, entries, &count].concat()
             }
             Self::BadIndex { field, index, count } => {
-                write!(f, "`{field}` must be below {count}, but is {index}")
+                let [index, count] = [index, count].map(|number| digits(*number));
+                ["`", field, "` must be below ", &count, ", but is ", &index].concat()
             }
-            Self::BadHandle { what } => write!(f, "`{what}` must be a live {what} of this cloth"),
+            Self::BadHandle { what } => {
+                ["`", what, "` must be a live ", what, " of this cloth"].concat()
+            }
             Self::BadMesh { at, must } => {
-                write!(f, "`indices` must {must} (triangle or vertex {at})")
+                ["`indices` must ", must, " (triangle or vertex ", &digits(*at), ")"].concat()
             }
             Self::BadStream { stream, field, must } => {
-                write!(f, "`streams[{stream}].{field}` must {must}")
+                ["`streams[", &digits(*stream), "].", field, "` must ", must].concat()
             }
             Self::SmallStream { stream, needed, size } => {
-                write!(f, "`streams[{stream}].size` must be at least {needed}, but is {size}")
+                let [needed, size] = [needed, size].map(|number| digits(*number));
+                let stream = digits(*stream);
+                let parts = ["`streams[", &stream, "].size` must be at least ", &needed];
+                [&parts[..], &[", but is ", &size]].concat().concat()
             }
-            Self::Full { what } => write!(f, "no room is left for {what}"),
-            Self::BadSave { why } => write!(f, "`buffer` must hold a saved cloth: {why}"),
+            Self::Full { what } => ["no room is left for ", what].concat(),
+            Self::BadSave { why } => ["`buffer` must hold a saved cloth: ", why].concat(),
             Self::MissingFeature { what, feature } => {
-                write!(f, "{what} needs the feature `{feature}`, which this build does not have")
+                let rest = "`, which this build does not have";
+                [what, " needs the feature `", feature, rest].concat()
             }
-            Self::Unsupported { what } => write!(f, "{what} is not supported"),
+            Self::Unsupported { what } => [what, " is not supported"].concat(),
+        }
+    }
+}
+
+/// Returns the decimal digits of a number.
+fn digits(number: impl Into<u64>) -> String {
+    let (mut rest, mut digits) = (number.into(), Vec::new());
+    loop {
+        digits.push(char::from(b'0' + (rest % 10) as u8));
+        rest /= 10;
+        if rest == 0 {
+            return digits.into_iter().rev().collect();
         }
     }
 }
@@ -162,5 +194,23 @@ pub(crate) fn check_index(index: u32, count: usize, field: &'static str) -> Resu
         Ok(())
     } else {
         Err(Error::BadIndex { field, index, count: count as u32 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_hold_all_digits_of_their_numbers() {
+        for number in [0, 7, 10, 4_294_967_295, u64::MAX] {
+            assert_eq!(digits(number), number.to_string());
+        }
+        let small = Error::SmallStream { stream: 3, needed: 12_000_000_000, size: 120 };
+        let text = "`streams[3].size` must be at least 12000000000, but is 120";
+        assert_eq!(small.to_string(), text);
+        let count = Error::BadCount { field: "scales", count: 5, needed: 1600 };
+        let text = "`scales` must have 1600 entries, one per particle, but has 5";
+        assert_eq!(count.to_string(), text);
     }
 }

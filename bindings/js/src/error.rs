@@ -15,7 +15,7 @@ pub(crate) fn to_js_error(error: Error) -> JsError {
     if let Error::MissingFeature { what, .. } = error {
         return missing(what);
     }
-    JsError::new(&quoted_names_to_camel_case(&error.to_string()))
+    JsError::new(&quoted_names_to_camel_case(&error.message()))
 }
 
 /// Returns the error of a call that only the full module has.
