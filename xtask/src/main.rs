@@ -15,6 +15,8 @@ mod c_tests;
 mod clean_root;
 mod clients;
 mod csharp;
+mod dead_data;
+mod dead_formatting;
 mod demo;
 mod dist;
 mod engine_download;

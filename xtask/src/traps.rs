@@ -9,10 +9,11 @@
 
 use std::collections::HashSet;
 
-use walrus::ir::{Instr, InstrSeq, Unreachable, VisitorMut, dfs_pre_order_mut};
+use walrus::ir::{Const, Instr, InstrSeq, Unreachable, Value, VisitorMut, dfs_pre_order_mut};
 use walrus::{FunctionId, FunctionKind, LocalFunction, Module};
 
 use crate::failure::{During, Failure, Result};
+use crate::{dead_data, dead_formatting};
 
 /// Parts of the mangled names of functions that panic.
 const PANICS: [&str; 5] =
@@ -27,30 +28,34 @@ const MIN_CALLS: usize = 100;
 /// If few panics are found: the names of the functions changed.
 pub fn from_panics(bytes: &[u8]) -> Result<Vec<u8>> {
     let mut module = Module::from_buffer(bytes).during(|| "reading a module".into())?;
-    let calls = replace_calls(&mut module);
+    let Replacement { calls, locations, .. } = replace_calls(&mut module);
     if calls < MIN_CALLS {
         return Err(Failure::new(format!("only {calls} calls in the module panic by their names")));
     }
+    walrus::passes::gc::run(&mut module);
+    dead_formatting::remove(&mut module);
+    walrus::passes::gc::run(&mut module);
+    dead_data::clear(&mut module, &locations);
     Ok(module.emit_wasm())
 }
 
-/// Replaces the calls of functions that panic, and returns how many there are. The functions stay,
-/// for a later pass that removes all code that nothing calls.
-fn replace_calls(module: &mut Module) -> usize {
+/// Replaces the calls of functions that panic. The functions stay, for a later pass that removes all
+/// code that nothing calls.
+fn replace_calls(module: &mut Module) -> Replacement {
     let panics = module.funcs.iter().filter(|function| {
         let name = function.name.as_deref().unwrap_or("");
         PANICS.iter().any(|part| name.contains(part))
             && matches!(&function.kind, FunctionKind::Local(body) if never_returns(body))
     });
-    let mut replacement =
-        Replacement { panics: panics.map(|panic| panic.id()).collect(), calls: 0 };
+    let panics = panics.map(|panic| panic.id()).collect();
+    let mut replacement = Replacement { panics, calls: 0, locations: HashSet::new() };
     for (id, body) in module.funcs.iter_local_mut() {
         if !replacement.panics.contains(&id) {
             let entry = body.entry_block();
             dfs_pre_order_mut(&mut replacement, body, entry);
         }
     }
-    replacement.calls
+    replacement
 }
 
 /// Whether a function ends in a trap. The compiler adds it after each call that does not return.
@@ -61,7 +66,10 @@ fn never_returns(body: &LocalFunction) -> bool {
 
 struct Replacement {
     panics: HashSet<FunctionId>,
+    /// How many calls were replaced.
     calls: usize,
+    /// The numbers that they passed last: the addresses of the places of the panics.
+    locations: HashSet<u32>,
 }
 
 impl VisitorMut for Replacement {
@@ -72,6 +80,10 @@ impl VisitorMut for Replacement {
         let Some(at) = code.iter().position(|(instr, _)| is_panic(instr)) else {
             return;
         };
+        let last = at.checked_sub(1).map(|last| &code[last].0);
+        if let Some(Instr::Const(Const { value: Value::I32(address) })) = last {
+            self.locations.insert(*address as u32);
+        }
         code[at].0 = Unreachable {}.into();
         code.truncate(at + 1);
         let arguments = code[..at].iter().rev().take_while(|(instr, _)| is_unobservable(instr));
@@ -101,7 +113,7 @@ fn is_unobservable(instr: &Instr) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use walrus::ir::{BinaryOp, Value};
+    use walrus::ir::BinaryOp;
     use walrus::{FunctionBuilder, ValType};
 
     /// Adds a function `name` that takes a number and traps, or returns if `returns`.
@@ -127,7 +139,7 @@ mod tests {
             block.i32_const(3).i32_const(4).binop(BinaryOp::I32Add).call(panic).unreachable();
         });
         let caller = caller.finish(vec![], &mut module.funcs);
-        assert_eq!(replace_calls(&mut module), 1);
+        assert_eq!(replace_calls(&mut module).calls, 1);
         let body = module.funcs.get(caller).kind.unwrap_local();
         let (Instr::Block(block), _) = &body.block(body.entry_block()).instrs[0] else {
             panic!("the caller has no block");
