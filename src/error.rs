@@ -112,8 +112,8 @@ impl fmt::Display for Error {
 }
 
 impl Error {
-    /// Returns the message. It is put together without `core::fmt`, which a wasm module then does not
-    /// contain; for language bindings.
+    /// Returns the message, for language bindings. It is put together without `core::fmt`, which a
+    /// wasm module then does not contain.
     #[doc(hidden)]
     pub fn message(&self) -> String {
         match self {

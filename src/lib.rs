@@ -79,8 +79,8 @@
 //! | `cut` | `Cloth::cut` does not exist; tears do |
 //! | `save` | `Cloth::save` and `Cloth::restore` do not exist |
 //!
-//! Refusals are [`Error::MissingFeature`]. A save that needs a part which the build lacks is refused
-//! too. What a build has moves with the same bits as in a build with everything.
+//! Refusals are [`Error::MissingFeature`]. A save that needs a missing part is refused too. What a
+//! build has moves with the same bits as in a build with everything.
 //!
 //! - `parallel` (off by default) adds `Cloth::set_threads`: one large cloth uses several threads of
 //!   [rayon](https://docs.rs/rayon), with the same bits.

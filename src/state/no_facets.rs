@@ -1,7 +1,8 @@
-//! Stand-in for `facet_desc` and `deformation` in builds without the feature `facet-colliders`: shapes
-//! with facets are refused, and no collider deforms.
+//! Stand-in for `facet_desc` and `deformation` in builds without the feature `facet-colliders`:
+//! shapes with facets are refused, and no collider deforms.
 //!
-//! [`deformation::Deformation`] has no values, so the compiler removes every branch that handles one.
+//! [`deformation::Deformation`] has no values, so the compiler removes every branch that handles
+//! one.
 
 use crate::error::{Error, Result};
 use crate::geometry::collision_shape::CollisionShape;

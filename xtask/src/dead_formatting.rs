@@ -4,8 +4,8 @@
 //! exports, table ──▶ functions that they call ──▶ core::fmt?     yes: nothing changes
 //!                                                                no: its functions become traps
 //! ```
-//! Messages of panics refer to functions such as `<f32 as Debug>::fmt` by their number in the table.
-//! The table keeps them after `traps` removed the panics, and with them a twentieth of the module.
+//! Messages of panics refer to functions such as `<f32 as Debug>::fmt` by their number in the
+//! table. The table keeps them after `traps` removed the panics.
 //!
 //! Reads and writes the functions.
 //! Invariant: a function of `core::fmt`, or one that implements a trait of it, runs only if another

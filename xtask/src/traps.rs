@@ -39,8 +39,8 @@ pub fn from_panics(bytes: &[u8]) -> Result<Vec<u8>> {
     Ok(module.emit_wasm())
 }
 
-/// Replaces the calls of functions that panic. The functions stay, for a later pass that removes all
-/// code that nothing calls.
+/// Replaces the calls of functions that panic. The functions stay, for a later pass that removes
+/// all code that nothing calls.
 fn replace_calls(module: &mut Module) -> Replacement {
     let panics = module.funcs.iter().filter(|function| {
         let name = function.name.as_deref().unwrap_or("");

@@ -29,6 +29,10 @@ const OLD: &str = "-C target-feature=-simd128,-nontrapping-fptoint,-sign-ext \
 /// Leaves out what `muslin/light` does not have, see `bindings/js/Cargo.toml`.
 const LIGHT: [&str; 1] = ["--no-default-features"];
 
+/// More compiler flags for `muslin/light`: loops are unrolled less, which makes the module a further
+/// 3.5 % smaller and ticks up to 6 % slower.
+const LESS_UNROLLED: &str = " -C llvm-args=-unroll-runtime=false -C llvm-args=-unroll-threshold=50";
+
 /// Compiles the simulation for size, and the exports for the least size.
 const SMALL: [&str; 4] = [
     "--config",
@@ -76,7 +80,7 @@ pub fn compile(package: &str, flags: &str) -> Result<PathBuf> {
 
 /// Compiles the library of `package` to a module for `muslin/light`; returns its path.
 pub fn compile_light(package: &str) -> Result<PathBuf> {
-    compile_with(package, FLAGS, &LIGHT)
+    compile_with(package, &(FLAGS.to_owned() + LESS_UNROLLED), &LIGHT)
 }
 
 /// Compiles the library of `package` to a module of small functions that wasm2js can translate;

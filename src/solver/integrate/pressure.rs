@@ -159,7 +159,7 @@ fn push_particles(world: &mut World) {
         let all = || piece.iter().map(|i| *i as usize);
         let longest = all().fold(0.0, |longest, i| max(longest, (sums.get(i) * p.w[i]).length()));
         let bound = max_length / max(longest, f32::MIN_POSITIVE);
-        // Not `clamp`: its panic would bring the code that formats numbers into a wasm module, 20 kB.
+        // Not `clamp`: the text of its panic would add 18 kB to the WebAssembly module.
         let scale =
             if pressure_step.abs() > bound { bound.copysign(pressure_step) } else { pressure_step };
         all().for_each(|i| p.x.add(i, sums.get(i) * (p.w[i] * scale)));

@@ -78,3 +78,21 @@ impl WarmStart {
         self.0.extend(forces.filter(ContactForce::is_valid));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn force(i: u32) -> ContactForce {
+        ContactForce { ids: [i, i / 2, i % 7, 3], kind: 1, normal: 1.0, tangent: Vec3::ZERO }
+    }
+
+    #[test]
+    fn forces_with_bad_ids_or_values_are_invalid() {
+        let is_valid = |force: ContactForce| WarmStart(vec![force]).is_valid(10);
+        assert!(is_valid(force(9)) && !is_valid(force(10)));
+        assert!(!is_valid(ContactForce { normal: f32::NAN, ..force(1) }));
+        assert!(!is_valid(ContactForce { normal: -1.0, ..force(1) }));
+        assert!(!is_valid(ContactForce { tangent: Vec3::INFINITY, ..force(1) }));
+    }
+}

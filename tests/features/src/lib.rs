@@ -1,7 +1,7 @@
 //! Tests of the crate without its optional parts: refusals name the feature, the rest works.
 //!
-//! `cargo test --package muslin-features` runs them; in a build of the whole workspace the features of
-//! other packages would be on.
+//! `cargo test --package muslin-features` runs them; in a build of the whole workspace the features
+//! of other packages would be on.
 
 #[cfg(test)]
 mod tests {
