@@ -130,8 +130,11 @@ fn names_of_files_are_unique_in_the_solver() {
 #[test]
 fn names_of_types_are_unique() {
     let library = Crate::read(&root().join("src"));
+    // A stand-in for a part that a feature leaves out has the names of that part.
+    let is_stand_in = |file: &Module| file.last().is_some_and(|name| name.starts_with("no_"));
+    let files = library.files.iter().filter(|(file, _)| !is_stand_in(file));
     // A file may define a name twice, for example with threads and without.
-    let names = library.files.iter().flat_map(|(file, items)| {
+    let names = files.flat_map(|(file, items)| {
         let names: BTreeSet<_> = items.types.iter().collect();
         names.into_iter().map(|name| (name.clone(), module_name(file)))
     });
