@@ -6,6 +6,7 @@ pub(crate) mod collider_desc;
 pub(crate) mod colliders;
 pub(crate) mod deformation;
 pub(crate) mod events;
+pub(crate) mod frame_clock;
 pub(crate) mod grabs;
 pub(crate) mod mass_scales;
 pub(crate) mod origin;

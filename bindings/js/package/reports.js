@@ -67,7 +67,7 @@ export function readEvents(list) {
   return events;
 }
 
-/** Fields of the mesh report in the order of `mesh_report` in src/read.rs; `isGrid` comes last. */
+/** Fields of the mesh report in the order of `mesh_report` in src/read.rs. */
 const REPORT = [
   "vertices",
   "triangles",
@@ -82,11 +82,18 @@ const REPORT = [
   "unusedVertices",
   "pieces",
   "oneSidedPieces",
+  "thinTriangles",
+  "thinnestTriangle",
+  "isGrid",
+  "shortestEdge",
+  "meanEdge",
+  "worstAspect",
 ];
 
-export function readMeshReport(list) {
+export function readMeshReport(list, warnings) {
   const report = Object.fromEntries(REPORT.map((name, index) => [name, list[index]]));
-  return Object.freeze({ ...report, isGrid: list[REPORT.length] !== 0 });
+  const lines = Object.freeze(warnings.split("\n").filter(Boolean));
+  return Object.freeze({ ...report, isGrid: report.isGrid !== 0, warnings: lines });
 }
 
 export function readChanges([firstVertex, vertexCount, firstIndex, indexCount]) {

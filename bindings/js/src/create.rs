@@ -74,6 +74,12 @@ impl RawCloth {
         Cloth::restore(buffer).map(Self::new).map_err(to_js_error)
     }
 
+    /// Creates a copy of the cloth.
+    pub fn duplicate(&self) -> RawCloth {
+        reserve(self.cloth.particle_count() as usize);
+        RawCloth { is_timed: self.is_timed, ..Self::new(self.cloth.duplicate()) }
+    }
+
     /// Returns the whole state of the cloth as bytes.
     pub fn save(&self) -> Vec<u8> {
         self.cloth.save()

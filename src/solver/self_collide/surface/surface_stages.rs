@@ -152,7 +152,9 @@ impl SurfaceCollision {
         let (mesh, start) = (&world.mesh, &motion.start);
         intersections.clear();
         let scans = core::mem::take(&mut self.is_new_tick);
-        if world.is_tangled || scans && intersections.scan(mesh, bvh, pairs, start, world.tick) {
+        if world.is_tangled
+            || scans && intersections.scan(mesh, bvh, pairs, start, world.clock.tick)
+        {
             let sizes = [*gap, world.mean_edge, world.regular_scheme().h];
             intersections.detect(mesh, (bvh, pairs), start, sizes);
             intersections.disable_contacts(contacts, speculative);
