@@ -7,10 +7,10 @@ import init, { Cloth } from "muslin";
 
 await init();
 
-/** Returns a sheet of 8 × 8 particles in the wind. */
+/** Returns a sheet of 8 × 8 particles, in the wind unless it may sleep. */
 function sheet(settings = {}) {
   const cloth = Cloth.grid({ columns: 8, rows: 8, settings });
-  cloth.wind = { velocity: [0, 0, 3], gust: settings.sleepSpeed ? 0 : 0.5 };
+  if (!settings.sleepSpeed) cloth.wind = { velocity: [0, 0, 3], gust: 0.5 };
   return cloth;
 }
 
