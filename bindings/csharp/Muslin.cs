@@ -1563,8 +1563,7 @@ namespace Muslin
         /// does, with the same bits. `out_ticks` (may be NULL) receives how many ticks each of them
         /// ran.
         ///
-        /// One call for a crowd costs less than one per cloth: a cloth that sleeps costs next to
-        /// nothing. `cloths` may be NULL if `count` is 0.
+        /// A cloth that sleeps costs next to nothing. `cloths` may be NULL if `count` is 0.
         ///
         /// If one of the cloths is refused, none of them advances; the message names its index.
         /// </summary>

@@ -7,7 +7,7 @@
 //! Invariant: a cloth gets the bits of its own `advance`, for any order and any number of threads.
 
 use crate::cloth::Cloth;
-use crate::error::{Result, check};
+use crate::error::Result;
 use crate::math::float_env::with_float_env;
 use core::borrow::BorrowMut;
 
@@ -61,7 +61,7 @@ impl Cloth {
     where
         C: BorrowMut<Self> + Send,
     {
-        check_seconds(seconds)?;
+        Self::check_seconds(seconds)?;
         let mut ticks = vec![0; cloths.len()];
         if let [cloth] = cloths {
             ticks[0] = cloth.borrow_mut().run_due_ticks(seconds);
@@ -70,11 +70,6 @@ impl Cloth {
         }
         Ok(ticks)
     }
-}
-
-/// Checks an amount of frame time [s].
-pub(super) fn check_seconds(seconds: f32) -> Result<()> {
-    check(seconds.is_finite() && seconds >= 0.0, "seconds", "be at least 0 and finite")
 }
 
 /// The largest number of cloths that are advanced together: enough that the cache misses of the

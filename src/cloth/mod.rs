@@ -57,7 +57,7 @@ use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::cloth::outputs::Outputs;
 use crate::cloth::ray_tree::RayTree;
 use crate::cloth::tracked_world::TrackedWorld;
-use crate::error::Result;
+use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
 use crate::solver::pipeline;
@@ -305,8 +305,13 @@ impl Cloth {
     /// [`Error::BadValue`](crate::Error::BadValue) if `seconds` is negative or not finite. The
     /// cloth is unchanged.
     pub fn advance(&mut self, seconds: f32) -> Result<u32> {
-        batch::check_seconds(seconds)?;
+        Self::check_seconds(seconds)?;
         Ok(self.run_due_ticks(seconds))
+    }
+
+    /// Checks an amount of frame time [s].
+    fn check_seconds(seconds: f32) -> Result<()> {
+        check(seconds.is_finite() && seconds >= 0.0, "seconds", "be at least 0 and finite")
     }
 
     /// Runs the ticks that are due after `seconds` [s], which were checked, and returns how many.

@@ -88,24 +88,29 @@ impl MeshReport {
     /// ```
     pub fn warnings(&self) -> Vec<String> {
         let counted = [
-            (self.dropped_degenerate, "triangle was|triangles were", "removed for lack of an area"),
-            (self.split_edges, "edge was|edges were", "split: more than two triangles met there"),
-            (self.one_sided_pieces, "piece has|pieces have", "one side only"),
-            (self.unused_vertices, "vertex is|vertices are", "in no triangle"),
-            (self.thin_triangles, "triangle has|triangles have", THIN),
+            (
+                self.dropped_degenerate,
+                "triangle was",
+                "triangles were",
+                "removed for lack of an area",
+            ),
+            (
+                self.split_edges,
+                "edge was",
+                "edges were",
+                "split: more than two triangles met there",
+            ),
+            (self.one_sided_pieces, "piece has", "pieces have", "one side only"),
+            (self.unused_vertices, "vertex is", "vertices are", "in no triangle"),
+            (self.thin_triangles, "triangle has", "triangles have", THIN),
         ];
-        let is_found = |(count, ..): &(u32, &str, &str)| *count > 0;
-        let mut warnings: Vec<String> = counted
-            .into_iter()
-            .filter(is_found)
-            .map(|(count, subjects, rest)| {
-                let (one, many) = subjects.split_once('|').unwrap_or_default();
-                format!("{count} {} {rest}", if count == 1 { one } else { many })
-            })
-            .collect();
-        if self.thin_triangles > 0
-            && let Some(last) = warnings.last_mut()
-        {
+        let mut warnings = Vec::new();
+        for (count, one, many, rest) in counted {
+            if count > 0 {
+                warnings.push(format!("{count} {} {rest}", if count == 1 { one } else { many }));
+            }
+        }
+        if let (1.., Some(last)) = (self.thin_triangles, warnings.last_mut()) {
             *last += &format!("; the thinnest is triangle {}", self.thinnest_triangle);
         }
         if self.shortest_edge < SHORT_EDGE * self.mean_edge {

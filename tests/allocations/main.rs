@@ -10,6 +10,7 @@ use std::cell::Cell;
 #[path = "../common/mod.rs"]
 mod common;
 mod counting_allocator;
+mod crowds;
 mod layers;
 
 use counting_allocator::allocation_count;
@@ -495,18 +496,4 @@ fn the_update_of_a_skin_allocates_nothing_while_triangles_stay() {
     follow(&mut skin, &cloth, 1.0);
     assert!(skin.positions().len() > desc.positions.len());
     assert_eq!(allocation_count(|| follow(&mut skin, &cloth, 0.5)), 0);
-}
-
-#[test]
-fn many_cloths_in_one_call_allocate_only_the_list_of_ticks() {
-    let cloth = Cloth::grid(&GridDesc { columns: 8, rows: 8, ..GridDesc::default() }).unwrap();
-    let mut cloths = vec![cloth; 40];
-    cloths[0].set_wind(Wind { velocity: Vec3::Z, gust: 0.5, ..Wind::default() }).unwrap();
-    let frames = 30;
-    let count = allocation_count(|| {
-        for _ in 0..frames {
-            Cloth::advance_many(&mut cloths, 1.0 / 60.0).unwrap();
-        }
-    });
-    assert_eq!(count, frames);
 }

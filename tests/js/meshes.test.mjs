@@ -104,6 +104,20 @@ test("a grid that is passed as a mesh moves with the bits of the grid", () => {
   assert.equal(mesh.stateHash(), grid.stateHash());
 });
 
+test("meshReport warns of every defect in the words of the core", () => {
+  // Three triangles on one edge, one without area, a vertex in no triangle; a small triangle apart.
+  const corners = [[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0.5, -1, 0], [0.5, 0, 1], [5, 5, 5]];
+  const small = [[9, 0, 0], [9.005, 0, 0], [9.0025, 0.005, 0]];
+  const indices = [0, 1, 2, 1, 0, 3, 0, 1, 4, 0, 0, 1, 6, 7, 8];
+  const { meshReport } = Cloth.mesh({ positions: [...corners, ...small].flat(), indices });
+  assert.deepEqual(meshReport.warnings, [
+    "1 triangle was removed for lack of an area",
+    "1 edge was split: more than two triangles met there",
+    "1 vertex is in no triangle",
+    "the shortest edge is under a hundredth of the mean edge",
+  ]);
+});
+
 test("meshReport measures the quality of a mesh and warns of thin triangles", () => {
   // A right triangle of 1 m and 2 m, and a thin one with a height of 2 mm on an edge of 1 m.
   const positions = [0, 0, 0, 1, 0, 0, 0, 2, 0, 0.5, -0.002, 0];

@@ -13,7 +13,6 @@ use crate::ffi::panic_guard::run_guarded;
 use crate::log::{self, MUSLIN_LOG_INFO};
 use crate::status::{CallError, MuslinStatus, Result};
 use crate::types::value::{MuslinCloth, MuslinSkin};
-use core::hint::black_box;
 use muslin_core::{Cloth, Skin};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
@@ -23,9 +22,8 @@ struct Entry {
     skins: Vec<(u64, Skin)>,
 }
 
-/// A cloth, or `None` if another thread destroyed it after its slot was looked up. In a box, so that
-/// the lock and the counts of the pointer share a cache line.
-type SharedCloth = Arc<Mutex<Option<Box<Entry>>>>;
+/// A cloth, or `None` if another thread destroyed it after its slot was looked up.
+type SharedCloth = Arc<Mutex<Option<Entry>>>;
 
 struct Slot {
     generation: u32,
@@ -98,7 +96,7 @@ fn busy() -> CallError {
     CallError::new(MuslinStatus::Busy, "`cloth` must not be in use on another thread")
 }
 
-fn try_lock(shared: &SharedCloth) -> Result<MutexGuard<'_, Option<Box<Entry>>>> {
+fn try_lock(shared: &SharedCloth) -> Result<MutexGuard<'_, Option<Entry>>> {
     match shared.try_lock() {
         Ok(locked) => Ok(locked),
         Err(TryLockError::WouldBlock) => Err(busy()),
@@ -108,7 +106,7 @@ fn try_lock(shared: &SharedCloth) -> Result<MutexGuard<'_, Option<Box<Entry>>>> 
 
 /// Stores a new cloth and returns its handle.
 pub fn insert(cloth: Cloth) -> Result<MuslinCloth> {
-    let shared = Arc::new(Mutex::new(Some(Box::new(Entry { cloth, skins: Vec::new() }))));
+    let shared = Arc::new(Mutex::new(Some(Entry { cloth, skins: Vec::new() })));
     Ok(MuslinCloth { id: locked(&CLOTHS).insert(shared, "another cloth")? })
 }
 
@@ -138,7 +136,7 @@ pub fn with_skin(skin: MuslinSkin, call: impl FnOnce(&mut Skin, &Cloth) -> Resul
     run_guarded(|| {
         let shared = find_skin(skin)?;
         let mut entry = try_lock(&shared)?;
-        let Entry { cloth, skins } = &mut **entry.as_mut().ok_or_else(CallError::bad_skin)?;
+        let Entry { cloth, skins } = entry.as_mut().ok_or_else(CallError::bad_skin)?;
         let found = skins.iter_mut().find(|(id, _)| *id == skin.id);
         let (_, skin) = found.ok_or_else(CallError::bad_skin)?;
         call(skin, cloth)
@@ -192,9 +190,6 @@ pub fn with_two_cloths(
     })
 }
 
-/// Number of handles that are looked up together.
-const BLOCK: usize = 32;
-
 /// Runs `call` with exclusive access to each of `handles`, the argument `cloths`. A panic makes all
 /// of them unusable.
 ///
@@ -204,50 +199,26 @@ pub fn with_cloths(
     handles: &[MuslinCloth],
     call: impl FnOnce(&mut [&mut Cloth]) -> Result,
 ) -> Result {
-    let mut shared = find_cloths(handles)?;
+    let shared = find_cloths(handles)?;
     let mut entries = Vec::with_capacity(shared.len());
-    for block in shared.chunks(BLOCK) {
-        touch(block.iter());
-        for cloth in block {
-            let at = entries.len();
-            entries.push(try_lock(cloth).map_err(|error| refused_in_list(handles, at, error))?);
-        }
+    for (at, cloth) in shared.iter().enumerate() {
+        entries.push(try_lock(cloth).map_err(|error| refused_in_list(handles, at, error))?);
     }
     let mut cloths = Vec::with_capacity(entries.len());
     for (at, entry) in entries.iter_mut().enumerate() {
         let entry = entry.as_mut().ok_or_else(CallError::bad_cloth);
         cloths.push(&mut entry.map_err(|error| refused_in_list(handles, at, error))?.cloth);
     }
-    let result = call(&mut cloths);
-    for first in (0..handles.len()).step_by(BLOCK).rev() {
-        touch(shared[first..].iter().take(BLOCK));
-        entries.truncate(first);
-    }
-    drop(entries);
-    for first in (0..handles.len()).step_by(BLOCK).rev() {
-        touch(shared[first..].iter());
-        shared.truncate(first);
-    }
-    result
-}
-
-/// Reads the counts of shared cloths, which are beside their locks. The cache misses of these plain
-/// reads overlap, whereas each change of a count or lock would wait for its own.
-fn touch<'a>(cloths: impl Iterator<Item = &'a SharedCloth>) {
-    black_box(cloths.map(Arc::strong_count).sum::<usize>());
+    call(&mut cloths)
 }
 
 fn find_cloths(handles: &[MuslinCloth]) -> Result<Vec<SharedCloth>> {
     let table = locked(&CLOTHS);
-    let mut shared = Vec::with_capacity(handles.len());
-    for (first, block) in (0..).step_by(BLOCK).zip(handles.chunks(BLOCK)) {
-        touch(block.iter().filter_map(|cloth| table.find(cloth.id)));
-        for (at, cloth) in block.iter().enumerate() {
-            let found = table.find(cloth.id).cloned().ok_or_else(CallError::bad_cloth);
-            shared.push(found.map_err(|error| refused_in_list(handles, first + at, error))?);
-        }
-    }
-    Ok(shared)
+    let find = |(at, cloth): (usize, &MuslinCloth)| {
+        let found = table.find(cloth.id).cloned().ok_or_else(CallError::bad_cloth);
+        found.map_err(|error| refused_in_list(handles, at, error))
+    };
+    handles.iter().enumerate().map(find).collect()
 }
 
 /// The error of a cloth, as that of the handle at `at` in the argument `cloths`.

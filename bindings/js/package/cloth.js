@@ -231,8 +231,7 @@ export class Cloth {
   }
 
   get meshReport() {
-    const live = rawOf(this);
-    return readMeshReport(live.mesh_report(), live.mesh_warnings());
+    return readMeshReport(rawOf(this).mesh_report());
   }
 
   changes(sinceTopologyRevision) {

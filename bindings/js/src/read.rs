@@ -102,11 +102,6 @@ impl RawCloth {
         list.0
     }
 
-    /// Returns the warnings of the mesh report, one per line.
-    pub fn mesh_warnings(&self) -> String {
-        self.cloth.mesh_report().warnings().join("\n")
-    }
-
     /// Returns the ranges that changed since a topology revision: first vertex, vertex count, first
     /// index, index count.
     pub fn changes(&self, since_topology_revision: u32) -> Vec<u32> {

@@ -40,8 +40,7 @@ pub unsafe extern "C" fn muslin_cloth_advance(
 /// Advances `count` cloths by `seconds` [s] of frame time, each as muslin_cloth_advance does, with
 /// the same bits. `out_ticks` (may be NULL) receives how many ticks each of them ran.
 ///
-/// One call for a crowd costs less than one per cloth: a cloth that sleeps costs next to nothing.
-/// `cloths` may be NULL if `count` is 0.
+/// A cloth that sleeps costs next to nothing. `cloths` may be NULL if `count` is 0.
 ///
 /// If one of the cloths is refused, none of them advances; the message names its index.
 ///
