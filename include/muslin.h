@@ -990,8 +990,8 @@ typedef struct MuslinChanges {
 } MuslinChanges;
 
 /**
- * What was repaired in a mesh before it became cloth, and the result. Initialise it with
- * muslin_mesh_report_init.
+ * What was repaired in a mesh before it became cloth, and the quality of the result. Initialise it
+ * with muslin_mesh_report_init.
  *
  * Repairs are made in this order: vertices are welded; triangles without an area and repeated
  * triangles are dropped; edges and vertices where several sheets meet are split; triangles that
@@ -1036,6 +1036,19 @@ typedef struct MuslinMeshReport {
   uint32_t one_sided_pieces;
   /** 1 if the mesh is simulated as a regular grid, else 0. */
   uint32_t is_grid;
+  /** Length of the shortest edge [m]. */
+  float shortest_edge;
+  /** Mean length of the edges [m]. */
+  float mean_edge;
+  /**
+   * Largest aspect ratio of a triangle: its longest edge divided by its least height. 1.15 with
+   * equal edges, 2 on a grid.
+   */
+  float worst_aspect;
+  /** Number of thin triangles: those with an aspect ratio above 100. */
+  uint32_t thin_triangles;
+  /** The triangle with the largest aspect ratio, by its number among the given ones. */
+  uint32_t thinnest_triangle;
 } MuslinMeshReport;
 
 /** Statistics of a cloth. Initialise it with muslin_stats_init. */
@@ -1293,6 +1306,14 @@ MuslinStatus muslin_cloth_create_mesh(const MuslinMeshDesc *desc,
                                       MuslinCloth *out_cloth);
 
 /**
+ * Makes an independent copy of a cloth, in the same state. Destroy it with muslin_cloth_destroy.
+ *
+ * Both continue with the same bits as long as they get the same calls. Handles of grabs,
+ * attachments and colliders are valid for both; skins stay with `cloth`.
+ */
+MuslinStatus muslin_cloth_duplicate(MuslinCloth cloth, MuslinCloth *out_cloth);
+
+/**
  * Destroys a cloth. Its handle becomes stale; memory borrowed from it must no longer be read.
  */
 MuslinStatus muslin_cloth_destroy(MuslinCloth cloth);
@@ -1370,6 +1391,22 @@ MuslinStatus muslin_cloth_set_wind(MuslinCloth cloth, const MuslinWind *wind);
 MuslinStatus muslin_cloth_advance(MuslinCloth cloth,
                                   float seconds,
                                   uint32_t *out_ticks);
+
+/**
+ * Advances `count` cloths by `seconds` [s] of frame time, each as muslin_cloth_advance does, with
+ * the same bits. `out_ticks` (may be NULL) receives how many ticks each of them ran.
+ *
+ * A cloth that sleeps costs next to nothing. `cloths` may be NULL if `count` is 0.
+ *
+ * If one of the cloths is refused, none of them advances; the message names its index.
+ *
+ * @return MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite, or if a cloth occurs
+ * twice
+ */
+MuslinStatus muslin_cloths_advance(const MuslinCloth *cloths,
+                                   uint32_t count,
+                                   float seconds,
+                                   uint32_t *out_ticks);
 
 /**
  * Runs exactly `ticks` ticks. The time that muslin_cloth_advance keeps for the next frame does not
@@ -2116,6 +2153,22 @@ MuslinStatus muslin_cloth_changes(MuslinCloth cloth,
  */
 MuslinStatus muslin_cloth_get_mesh_report(MuslinCloth cloth,
                                           MuslinMeshReport *out_report);
+
+/**
+ * Writes a sentence for each property of the mesh that its author should know of: what was removed
+ * or split, and what makes the cloth slow or uneven. The text has one sentence per line and ends
+ * with a zero byte; it is empty for a good mesh. It is written to `size` bytes at `buffer`;
+ * `out_needed` receives the number of bytes, with the zero byte.
+ *
+ * If `buffer` is NULL, only that number is returned; otherwise `out_needed` may be NULL.
+ *
+ * @return MUSLIN_STATUS_BUFFER_TOO_SMALL if the text does not fit: nothing is written, and
+ * muslin_last_error() states the required size
+ */
+MuslinStatus muslin_cloth_get_mesh_warnings(MuslinCloth cloth,
+                                            char *buffer,
+                                            size_t size,
+                                            size_t *out_needed);
 
 /**
  * Returns statistics of the current state, computed in time proportional to the size of the cloth.

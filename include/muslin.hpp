@@ -22,6 +22,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -261,6 +262,13 @@ class Cloth {
     return {status, Cloth(cloth)};
   }
 
+  /** Makes an independent copy in the same state. */
+  Result<Cloth> duplicate() const noexcept {
+    MuslinCloth cloth{};
+    const MuslinStatus status = muslin_cloth_duplicate(cloth_, &cloth);
+    return {status, Cloth(cloth)};
+  }
+
   /** The C handle, for functions that this class does not have. Still owned by this object. */
   MuslinCloth handle() const noexcept { return cloth_; }
   /** Whether this object owns a cloth. */
@@ -275,6 +283,16 @@ class Cloth {
     std::uint32_t ticks = 0;
     const MuslinStatus status = muslin_cloth_advance(cloth_, seconds, &ticks);
     return {status, ticks};
+  }
+
+  /**
+   * Advances `count` cloths by `seconds` [s], each as advance() does; `out_ticks` (may be null)
+   * receives how many ticks each of them ran.
+   */
+  static Done advance_many(const Cloth *cloths, std::uint32_t count, float seconds,
+                           std::uint32_t *out_ticks = nullptr) noexcept {
+    static_assert(sizeof(Cloth) == sizeof(MuslinCloth), "a cloth is its handle");
+    return muslin_cloths_advance(&cloths->cloth_, count, seconds, out_ticks);
   }
 
   Result<MuslinSettings> settings() const noexcept {
@@ -576,6 +594,18 @@ class Cloth {
     muslin_mesh_report_init(&report);
     const MuslinStatus status = muslin_cloth_get_mesh_report(cloth_, &report);
     return {status, report};
+  }
+  /** What the author of the mesh should know of: one sentence per line, empty for a good mesh. */
+  Result<std::string> mesh_warnings() const {
+    std::size_t needed = 0;
+    std::string text;
+    MuslinStatus status = muslin_cloth_get_mesh_warnings(cloth_, nullptr, 0, &needed);
+    if (status == MUSLIN_STATUS_OK) {
+      text.resize(needed);
+      status = muslin_cloth_get_mesh_warnings(cloth_, &text[0], text.size(), &needed);
+      text.resize(status == MUSLIN_STATUS_OK ? needed - 1 : 0);  // without the zero byte
+    }
+    return {status, std::move(text)};
   }
   Result<MuslinStats> stats() const noexcept {
     MuslinStats stats;

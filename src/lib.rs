@@ -58,7 +58,7 @@
 //! | --- | --- |
 //! | make a cloth | [`Cloth::grid`] with [`GridDesc`] and [`PinMode`]; [`Cloth::mesh`] with [`MeshDesc`], [`MeshReport`] |
 //! | choose how it moves | [`Settings`], [`SelfCollision`], [`Material`], [`Preset`], [`Map`], [`Wind`], [`WindModel`] |
-//! | run it | [`Cloth::advance`], [`Cloth::step`], [`Cloth::blend`] |
+//! | run it | [`Cloth::advance`], [`Cloth::step`], [`Cloth::blend`]; [`Cloth::duplicate`], [`Cloth::advance_many`] |
 //! | hold it | [`Cloth::pin`], [`Grab`], [`Attachment`], [`Cloth::set_max_distances`], [`Cloth::set_backstops`] |
 //! | let it collide | [`ColliderDesc`], [`Shape`], [`Collider`], [`Impulse`] |
 //! | tear, cut and fold it | [`Cloth::tear_edge`], [`Cloth::cut`], [`Cloth::crease`], [`Event`], [`EventKind`] |
@@ -83,7 +83,8 @@
 //! build has moves with the same bits as in a build with everything.
 //!
 //! - `parallel` (off by default) adds `Cloth::set_threads`: one large cloth uses several threads of
-//!   [rayon](https://docs.rs/rayon), with the same bits.
+//!   [rayon](https://docs.rs/rayon), with the same bits; and `Cloth::advance_many` spreads the cloths
+//!   over threads.
 //!
 //! Positions and directions are types of [`glam`], which is re-exported.
 

@@ -2,7 +2,9 @@
 #![cfg(feature = "parallel")]
 
 use muslin::glam::Vec3;
-use muslin::{Cloth, ColliderDesc, Error, GridDesc, MeshDesc, PinMode, SelfCollision, Wind};
+use muslin::{
+    Cloth, ColliderDesc, Error, GridDesc, MeshDesc, PinMode, SelfCollision, Settings, Wind,
+};
 
 mod common;
 
@@ -160,4 +162,38 @@ fn the_thread_count_is_neither_hashed_nor_saved() {
     assert_eq!(cloth.state_hash(), hash);
     assert_eq!(cloth.save(), saved);
     assert_eq!(Cloth::restore(&saved).unwrap().threads(), 1);
+}
+
+#[test]
+fn many_cloths_have_the_same_bits_on_any_number_of_threads() {
+    let mut cloths: Vec<Cloth> = (0..50)
+        .map(|i| {
+            let mut cloth = Cloth::grid(&sheet(6 + i % 5, PinMode::TopEdge)).unwrap();
+            if i % 3 > 0 {
+                set_gusty_wind(&mut cloth);
+            }
+            let settings = Settings { sleep_speed: 0.05, damping: 2.0, ..Settings::default() };
+            cloth.set_settings(settings).unwrap();
+            cloth
+        })
+        .collect();
+    cloths[7].set_threads_eagerly(3).unwrap();
+    let mut copies = [1, 2, 3, 4].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        (pool, cloths.clone())
+    });
+    for frame in 0..90 {
+        let seconds = [0.02, 0.0, 0.04][frame % 3];
+        let separate: Vec<u32> =
+            cloths.iter_mut().map(|cloth| cloth.advance(seconds).unwrap()).collect();
+        for (pool, copies) in &mut copies {
+            let ticks = pool.install(|| Cloth::advance_many(copies, seconds)).unwrap();
+            assert_eq!(ticks, separate);
+            for (copy, cloth) in copies.iter().zip(&cloths) {
+                assert_eq!(copy.state_hash(), cloth.state_hash(), "frame {frame}");
+            }
+        }
+    }
+    assert!(cloths[0].is_asleep() && !cloths[1].is_asleep());
+    assert_eq!(copies[1].1[7].threads(), 3);
 }

@@ -9,11 +9,13 @@
 //! | `layers` | what self-collision adds to a tick |
 //! | `scenes` | the cost of a tick of the scenes of the demo |
 //! | `receipt` | the cost of a tick of the receipt scene in all its situations |
+//! | `crowd` | the cost of a frame of many small cloths, separately and in one call |
 //!
 //! Arguments select tables by name. `--test` runs everything once in a small size, to check that it
 //! runs; its times mean nothing. `benches/node` prints the first two tables for wasm.
 
 mod cases;
+mod crowd;
 mod kernels;
 mod layers;
 mod measure;
@@ -37,13 +39,14 @@ enum Effort {
 /// Name of a table, and the function that prints it.
 type TableEntry = (&'static str, fn(Effort));
 
-const TABLES: [TableEntry; 6] = [
+const TABLES: [TableEntry; 7] = [
     ("kernels", kernels::print),
     ("ticks", ticks::print),
     ("shreds", shreds::print),
     ("layers", layers::print),
     ("scenes", scenes::print),
     ("receipt", receipt::print),
+    ("crowd", crowd::print),
 ];
 
 fn main() -> ExitCode {
@@ -55,8 +58,8 @@ fn main() -> ExitCode {
     if let Some(unknown) = names.iter().find(|name| !TABLES.iter().any(|(known, _)| known == name))
     {
         eprintln!(
-            "there is no table {unknown:?}; the tables are kernels, ticks, shreds, layers, scenes \
-             and receipt"
+            "there is no table {unknown:?}; the tables are kernels, ticks, shreds, layers, scenes, \
+             receipt and crowd"
         );
         return ExitCode::FAILURE;
     }

@@ -748,8 +748,8 @@ namespace Muslin
     }
 
     /// <summary>
-    /// What was repaired in a mesh before it became cloth, and the result. Initialise it with
-    /// muslin_mesh_report_init.
+    /// What was repaired in a mesh before it became cloth, and the quality of the result.
+    /// Initialise it with muslin_mesh_report_init.
     ///
     /// Repairs are made in this order: vertices are welded; triangles without an area and repeated
     /// triangles are dropped; edges and vertices where several sheets meet are split; triangles
@@ -799,6 +799,21 @@ namespace Muslin
         public uint one_sided_pieces;
         /// <summary>1 if the mesh is simulated as a regular grid, else 0.</summary>
         public uint is_grid;
+        /// <summary>Length of the shortest edge [m].</summary>
+        public float shortest_edge;
+        /// <summary>Mean length of the edges [m].</summary>
+        public float mean_edge;
+        /// <summary>
+        /// Largest aspect ratio of a triangle: its longest edge divided by its least height. 1.15
+        /// with equal edges, 2 on a grid.
+        /// </summary>
+        public float worst_aspect;
+        /// <summary>Number of thin triangles: those with an aspect ratio above 100.</summary>
+        public uint thin_triangles;
+        /// <summary>
+        /// The triangle with the largest aspect ratio, by its number among the given ones.
+        /// </summary>
+        public uint thinnest_triangle;
     }
 
     /// <summary>Statistics of a cloth. Initialise it with muslin_stats_init.</summary>
@@ -1429,6 +1444,18 @@ namespace Muslin
             MuslinCloth* out_cloth);
 
         /// <summary>
+        /// Makes an independent copy of a cloth, in the same state. Destroy it with
+        /// muslin_cloth_destroy.
+        ///
+        /// Both continue with the same bits as long as they get the same calls. Handles of grabs,
+        /// attachments and colliders are valid for both; skins stay with `cloth`.
+        /// </summary>
+        [DllImport(LIBRARY, CallingConvention = CallingConvention.Cdecl)]
+        public static extern MuslinStatus muslin_cloth_duplicate(
+            MuslinCloth cloth,
+            MuslinCloth* out_cloth);
+
+        /// <summary>
         /// Destroys a cloth. Its handle becomes stale; memory borrowed from it must no longer be
         /// read.
         /// </summary>
@@ -1528,6 +1555,26 @@ namespace Muslin
         [DllImport(LIBRARY, CallingConvention = CallingConvention.Cdecl)]
         public static extern MuslinStatus muslin_cloth_advance(
             MuslinCloth cloth,
+            float seconds,
+            uint* out_ticks);
+
+        /// <summary>
+        /// Advances `count` cloths by `seconds` [s] of frame time, each as muslin_cloth_advance
+        /// does, with the same bits. `out_ticks` (may be NULL) receives how many ticks each of them
+        /// ran.
+        ///
+        /// A cloth that sleeps costs next to nothing. `cloths` may be NULL if `count` is 0.
+        ///
+        /// If one of the cloths is refused, none of them advances; the message names its index.
+        /// </summary>
+        /// <returns>
+        /// MUSLIN_STATUS_BAD_VALUE if `seconds` is negative or not finite, or if a cloth occurs
+        /// twice
+        /// </returns>
+        [DllImport(LIBRARY, CallingConvention = CallingConvention.Cdecl)]
+        public static extern MuslinStatus muslin_cloths_advance(
+            MuslinCloth* cloths,
+            uint count,
             float seconds,
             uint* out_ticks);
 
@@ -2425,6 +2472,25 @@ namespace Muslin
         public static extern MuslinStatus muslin_cloth_get_mesh_report(
             MuslinCloth cloth,
             MuslinMeshReport* out_report);
+
+        /// <summary>
+        /// Writes a sentence for each property of the mesh that its author should know of: what was
+        /// removed or split, and what makes the cloth slow or uneven. The text has one sentence per
+        /// line and ends with a zero byte; it is empty for a good mesh. It is written to `size`
+        /// bytes at `buffer`; `out_needed` receives the number of bytes, with the zero byte.
+        ///
+        /// If `buffer` is NULL, only that number is returned; otherwise `out_needed` may be NULL.
+        /// </summary>
+        /// <returns>
+        /// MUSLIN_STATUS_BUFFER_TOO_SMALL if the text does not fit: nothing is written, and
+        /// muslin_last_error() states the required size
+        /// </returns>
+        [DllImport(LIBRARY, CallingConvention = CallingConvention.Cdecl)]
+        public static extern MuslinStatus muslin_cloth_get_mesh_warnings(
+            MuslinCloth cloth,
+            byte* buffer,
+            UIntPtr size,
+            UIntPtr* out_needed);
 
         /// <summary>
         /// Returns statistics of the current state, computed in time proportional to the size of

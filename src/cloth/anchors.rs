@@ -108,7 +108,7 @@ impl Cloth {
             with_float_env(|| -> Vec<Vec3> { normals.iter().map(|n| unit_or_zero(*n)).collect() });
         let are_nonzero = normals.iter().all(|n| n.is_finite() && *n != Vec3::ZERO);
         check(are_nonzero, "normals", "have a length above 0")?;
-        let world = &mut self.world;
+        let world = &mut *self.world;
         for (at, particle) in particles.iter().enumerate() {
             let position = world.to_relative(positions[at]);
             let constraint = world.anchors.get_or_insert(*particle, position);
@@ -138,7 +138,7 @@ impl Cloth {
     /// Calls `change` with each list index and the constraint of that particle, which is made if
     /// missing.
     fn edit_anchors(&mut self, particles: &[u32], change: impl Fn(usize, &mut AnchorConstraint)) {
-        let world = &mut self.world;
+        let world = &mut *self.world;
         for (at, particle) in particles.iter().enumerate() {
             let x = world.particles.x.get(*particle as usize);
             change(at, world.anchors.get_or_insert(*particle, x));

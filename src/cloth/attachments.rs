@@ -95,15 +95,16 @@ impl Cloth {
         position: Vec3,
         rotation: Quat,
     ) -> Result<()> {
-        let origin = self.world.origin;
-        let motion = self.world.attachments.get_mut(attachment.0, "attachment")?;
+        let world = &mut *self.world;
+        let origin = world.origin;
+        let motion = world.attachments.get_mut(attachment.0, "attachment")?;
         with_float_env(|| {
             check_pose(position, rotation, ATTACHMENT_FIELDS)?;
             motion.next = Pose::new(position, rotation);
             let position = position.as_dvec3() - origin.as_dvec3();
             motion.next.position = motion.next.offset(position, motion.center);
             let frame = motion.next.to_transform();
-            for pin in self.world.pins.iter_mut().filter(|pin| pin.attachment == attachment.0) {
+            for pin in world.pins.iter_mut().filter(|pin| pin.attachment == attachment.0) {
                 pin.target = saturate(frame.point_to_world(pin.local));
             }
             Ok(())

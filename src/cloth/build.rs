@@ -47,6 +47,7 @@ use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::MAX_ATTACHMENTS;
 use crate::state::colliders::MAX_COLLIDERS;
 use crate::state::events::Events;
+use crate::state::frame_clock::FrameClock;
 use crate::state::grabs::MAX_GRABS;
 use crate::state::mass_scales::MassScales;
 use crate::state::origin::{Samples, shift_to_cloth};
@@ -114,7 +115,7 @@ fn world_from_grid(desc: &GridDesc) -> (World, MeshReport) {
     let capacity = desc.capacity();
     let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
     let (count, triangles) = (rest.len() as u32, mesh.triangles.len() as u32);
-    let report = MeshReport {
+    let mut report = MeshReport {
         vertices: count,
         triangles,
         particles: count,
@@ -123,6 +124,7 @@ fn world_from_grid(desc: &GridDesc) -> (World, MeshReport) {
         is_grid: true,
         ..MeshReport::default()
     };
+    report.measure_quality(&mesh, |particle| rest[particle as usize], |triangle| triangle);
     let rest_model = RestModel::from_grid(&grid, mesh, rest, capacity);
     let (material, settings) = (&desc.material, &desc.settings);
     (build_world(rest_model, origin, desc.pinned(), capacity, material, settings), report)
@@ -242,8 +244,7 @@ fn build_world(
         material: material.clone(),
         maps: Maps::default(),
         wind: Wind::default(),
-        time: 0.0,
-        tick: 0,
+        clock: FrameClock::default(),
         pieces: 0,
         triangle_capacity,
         reserve_reported: false,

@@ -82,7 +82,7 @@ impl Cloth {
     /// [`Error::BadHandle`](crate::Error::BadHandle) if the grab was released before.
     pub fn release(&mut self, grab: Grab) -> Result<()> {
         let grabbed = self.world.grabs.remove(grab.0, "grab")?;
-        let (at, world) = (grabbed.particle, &mut self.world);
+        let (at, world) = (grabbed.particle, &mut *self.world);
         if let Some(pin) = world.pins.get_mut(at) {
             pin.from = world.particles.x.get(at as usize);
         }

@@ -62,7 +62,7 @@ impl Cloth {
     /// more from its origin; [`Error::Full`](crate::Error::Full) if there are 1024 colliders already.
     /// The cloth is unchanged.
     pub fn collide_with(&mut self, other: &Self, collider: Option<Collider>) -> Result<Collider> {
-        let (world, other) = (&mut self.world, &other.world);
+        let (world, other) = (&mut *self.world, &other.world);
         let x = &other.particles.x;
         check_coordinates(x.x.len(), &|i| x.get(i), "other.positions")?;
         with_float_env(|| match collider {

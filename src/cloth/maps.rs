@@ -50,7 +50,7 @@ impl Cloth {
     /// [`Error::BadEntry`] names the first scale that is not from 0 to 1000.
     /// The cloth is unchanged.
     pub fn set_map(&mut self, map: Map, scales: Option<&[f32]>) -> Result<()> {
-        let world = &mut self.world;
+        let world = &mut *self.world;
         let count = world.particles.len();
         if let Some(scales) = scales {
             if scales.len() != count {

@@ -29,7 +29,7 @@ impl Cloth {
         particles.iter().try_for_each(|particle| check_index(*particle, count, "particles"))?;
         let are_scales = scales.iter().all(|scale| is_valid_scale(*scale));
         check(are_scales, "scales", "be from 0.001 to 1000")?;
-        let world = &mut self.world;
+        let world = &mut *self.world;
         for (particle, scale) in particles.iter().zip(scales) {
             world.mass_scales.set(*particle, *scale, count);
         }

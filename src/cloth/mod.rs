@@ -14,6 +14,7 @@
 
 mod anchors;
 mod attachments;
+mod batch;
 mod build;
 mod change_history;
 pub(crate) mod changes;
@@ -48,6 +49,7 @@ mod tear;
 mod teleport;
 #[cfg(feature = "parallel")]
 mod threads;
+mod tracked_world;
 pub(crate) mod vertex_stream;
 pub(crate) mod view;
 pub(crate) mod write_vertices;
@@ -60,6 +62,7 @@ use crate::cloth::change_history::ChangeHistory;
 use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::cloth::outputs::Outputs;
 use crate::cloth::ray_tree::RayTree;
+use crate::cloth::tracked_world::TrackedWorld;
 use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
@@ -118,11 +121,9 @@ pub struct Cloth {
     /// The descriptor that the cloth was made from; [`Cloth::reset`] builds the rest state from it
     /// again.
     desc: ClothDesc,
-    world: World,
+    world: TrackedWorld,
     outputs: Outputs,
     report: MeshReport,
-    /// Time that was passed to `advance` and has not been simulated yet [s].
-    backlog: f64,
     /// Whether pins changed after the tethers were last measured.
     pins_changed: bool,
     topology_revision: u32,
@@ -141,7 +142,6 @@ impl Clone for Cloth {
             world: self.world.clone(),
             outputs: Outputs::new(&self.world),
             report: self.report,
-            backlog: self.backlog,
             pins_changed: self.pins_changed,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
@@ -225,10 +225,9 @@ impl Cloth {
         outputs.update_positions(&world);
         Ok(Self {
             desc,
-            world,
+            world: TrackedWorld::new(world),
             outputs,
             report,
-            backlog: 0.0,
             pins_changed: false,
             topology_revision: 1,
             state_revision: 1,
@@ -271,18 +270,18 @@ impl Cloth {
         fresh.attachments.clear();
         core::mem::swap(&mut fresh.sewing, &mut self.world.sewing);
         fresh.scratch.tear.reserve(fresh.settings.max_tears(fresh.triangle_capacity));
-        self.world = fresh;
-        self.world.reserve_contacts();
+        let world = &mut *self.world;
+        *world = fresh;
+        world.reserve_contacts();
         with_float_env(|| {
-            self.world.restart_sewing();
-            self.world.compute_masses();
-            self.world.constraints.update_compliances(&self.world.material, &self.world.maps);
-            self.world.rebuild_tethers();
-            self.world.reset_history();
-            self.world.rebuild_particle_collision();
-            self.world.rebuild_surface_collision();
+            world.restart_sewing();
+            world.compute_masses();
+            world.constraints.update_compliances(&world.material, &world.maps);
+            world.rebuild_tethers();
+            world.reset_history();
+            world.rebuild_particle_collision();
+            world.rebuild_surface_collision();
         });
-        self.backlog = 0.0;
         self.pins_changed = false;
         self.update_topology();
         self.update_state();
@@ -312,23 +311,33 @@ impl Cloth {
     /// [`Error::BadValue`](crate::Error::BadValue) if `seconds` is negative or not finite. The
     /// cloth is unchanged.
     pub fn advance(&mut self, seconds: f32) -> Result<u32> {
-        check(seconds.is_finite() && seconds >= 0.0, "seconds", "be at least 0 and finite")?;
-        let (ticks, backlog) = with_float_env(|| {
-            let tick = f64::from(self.world.settings.tick);
-            let backlog = self.backlog + f64::from(seconds);
-            let whole = (backlog / tick).floor();
-            let max_ticks = self.world.settings.max_ticks_per_advance;
-            let ticks = if whole < f64::from(max_ticks) { whole as u32 } else { max_ticks };
-            (ticks, backlog - whole * tick)
-        });
-        self.backlog = if backlog > 0.0 { backlog } else { 0.0 };
+        Self::check_seconds(seconds)?;
+        Ok(self.run_due_ticks(seconds))
+    }
+
+    /// Checks an amount of frame time [s].
+    fn check_seconds(seconds: f32) -> Result<()> {
+        check(seconds.is_finite() && seconds >= 0.0, "seconds", "be at least 0 and finite")
+    }
+
+    /// Runs the ticks that are due after `seconds` [s], which were checked, and returns how many.
+    fn run_due_ticks(&mut self, seconds: f32) -> u32 {
+        if self.world.clock.is_idle {
+            return with_float_env(|| self.world.advance_idle(seconds));
+        }
+        let world = &mut *self.world;
+        let (tick, max_ticks) = (world.settings.tick, world.settings.max_ticks_per_advance);
+        let ticks = with_float_env(|| world.clock.take_due_ticks(seconds, tick, max_ticks));
         self.run(ticks, pipeline::ticks_of_frame);
-        Ok(ticks)
+        ticks
     }
 
     /// Runs exactly `ticks` ticks. The time that [`Cloth::advance`] keeps for the next frame does
     /// not change. Poses that were given before the call are reached in the first of these ticks.
     pub fn step(&mut self, ticks: u32) {
+        if self.world.clock.is_idle {
+            return with_float_env(|| self.world.step_idle(ticks));
+        }
         self.run(ticks, pipeline::ticks);
     }
 
@@ -339,7 +348,7 @@ impl Cloth {
             return;
         }
         let vertices = self.world.mesh.vertex_count();
-        let (pins_changed, world) = (core::mem::take(&mut self.pins_changed), &mut self.world);
+        let (pins_changed, world) = (core::mem::take(&mut self.pins_changed), &mut *self.world);
         let has_moved = world.threads.run_in_pool(world.particles.len(), || {
             with_float_env(|| {
                 if pins_changed {
@@ -353,6 +362,8 @@ impl Cloth {
         }
         if has_moved {
             self.update_state();
+        } else {
+            self.world.begin_idle();
         }
     }
 
@@ -362,17 +373,17 @@ impl Cloth {
     /// motion is smooth at any frame rate; [`Cloth::write_vertices`] does so with
     /// [`WriteDesc::blend`](crate::WriteDesc).
     pub fn blend(&self) -> f32 {
-        with_float_env(|| (self.backlog / f64::from(self.world.settings.tick)) as f32)
+        with_float_env(|| (self.world.clock.backlog / f64::from(self.world.settings.tick)) as f32)
     }
 
     /// Returns the simulated time since the cloth was made or reset [s].
     pub fn time(&self) -> f64 {
-        self.world.time
+        self.world.clock.time
     }
 
     /// Returns the number of ticks since the cloth was made or reset.
     pub fn ticks(&self) -> u32 {
-        self.world.tick
+        self.world.clock.tick
     }
 
     /// Returns whether the cloth sleeps, see [`Settings::sleep_speed`](crate::Settings): ticks then

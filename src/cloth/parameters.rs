@@ -28,7 +28,7 @@ impl Cloth {
     /// unchanged.
     pub fn set_settings(&mut self, settings: Settings) -> Result<()> {
         settings.check()?;
-        let world = &mut self.world;
+        let world = &mut *self.world;
         world.check_self_distance(&settings)?;
         let self_collision =
             |settings: &Settings| (settings.self_collision, settings.self_distance);
@@ -90,7 +90,7 @@ impl Cloth {
     /// unchanged.
     pub fn set_material(&mut self, material: Material) -> Result<()> {
         material.check()?;
-        let world = &mut self.world;
+        let world = &mut *self.world;
         if material != world.material {
             world.wake();
         }

@@ -132,7 +132,7 @@ impl Cloth {
 
     /// Places the particles from `first` on, whose positions were checked.
     fn place(&mut self, first: u32, positions: &[Vec3]) {
-        let world = &mut self.world;
+        let world = &mut *self.world;
         with_float_env(|| {
             world.move_origin_near(positions);
             for (particle, position) in (first..).zip(positions) {
@@ -149,7 +149,7 @@ impl Cloth {
 
     /// Sets the velocities of the particles from `first` on, which were checked.
     fn launch(&mut self, first: u32, velocities: &[Vec3]) {
-        let world = &mut self.world;
+        let world = &mut *self.world;
         with_float_env(|| {
             for (at, velocity) in (first as usize..).zip(velocities) {
                 let x = world.particles.x.get(at);

@@ -21,6 +21,7 @@ use crate::cloth::change_history::ChangeHistory;
 use crate::cloth::outputs::Outputs;
 use crate::cloth::postcard;
 use crate::cloth::ray_tree::RayTree;
+use crate::cloth::tracked_world::TrackedWorld;
 use crate::error::{Error, Result};
 use crate::math::columns::Columns;
 use crate::math::float_env::with_float_env;
@@ -157,8 +158,8 @@ impl Cloth {
             origin: world.origin,
             colliders: Cow::Borrowed(&world.colliders),
             events: Cow::Borrowed(&world.events),
-            time: world.time,
-            tick: world.tick,
+            time: world.clock.time,
+            tick: world.clock.tick,
             reserve_reported: world.reserve_reported,
             tether_slack: world.tether_slack,
             violations: world.violations,
@@ -166,7 +167,7 @@ impl Cloth {
             substeps: world.substeps,
             stiffness_step: world.stiffness_step,
             has_no_history: world.has_no_history,
-            backlog: self.backlog,
+            backlog: world.clock.backlog,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
         };
@@ -315,8 +316,9 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require(events.len() <= MAX_EVENTS)?;
     world.events = events;
     world.events.reserve();
-    (world.time, world.tick, world.reserve_reported) =
-        (saved.time, saved.tick, saved.reserve_reported);
+    (world.clock.time, world.clock.tick, world.clock.backlog) =
+        (saved.time, saved.tick, saved.backlog);
+    world.reserve_reported = saved.reserve_reported;
     world.violations = saved.violations;
     require(saved.tether_slack >= 0.0)?;
     world.label_pieces();
@@ -338,10 +340,9 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     outputs.update_positions(&world);
     Ok(Cloth {
         desc,
-        world,
+        world: TrackedWorld::new(world),
         outputs,
         report,
-        backlog: saved.backlog,
         pins_changed: false,
         topology_revision: saved.topology_revision,
         state_revision: saved.state_revision,

@@ -44,7 +44,7 @@ impl Cloth {
     /// triangle; [`Error::BadValue`] names the invalid field of `desc`. The cloth is unchanged.
     pub fn sew(&mut self, pairs: &[[u32; 2]], desc: &SewDesc) -> Result<()> {
         desc.check()?;
-        let world = &mut self.world;
+        let world = &mut *self.world;
         for (index, [a, b]) in (0..).zip(pairs) {
             let refuse = |must| Err(Error::BadEntry { field: "pairs", index, must });
             let corner = |particle: &u32| world.mesh.corner_of.get(*particle as usize);

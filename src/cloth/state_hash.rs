@@ -115,7 +115,7 @@ impl Cloth {
             hasher.write_f32s(&world.origin.to_array());
         }
         hasher.write_f32s(&[world.tether_slack]);
-        hasher.write_u32(world.tick);
+        hasher.write_u32(world.clock.tick);
         hasher.finish()
     }
 }

@@ -227,7 +227,7 @@ impl Cloth {
             constraints: world.constraints.links.len() as u32,
             active_constraints: world.constraints.active_links().count() as u32,
             pieces: world.pieces,
-            ticks: world.tick,
+            ticks: world.clock.tick,
             blend: self.blend(),
             max_stretch,
             mean_stretch,

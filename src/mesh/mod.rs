@@ -13,6 +13,7 @@
 pub(crate) mod grid;
 pub(crate) mod grid_detection;
 pub(crate) mod intake;
+pub(crate) mod quality;
 pub(crate) mod report;
 pub(crate) mod seams;
 pub(crate) mod split_edge;

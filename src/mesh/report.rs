@@ -1,12 +1,19 @@
-//! Report of the mesh repair at creation.
+//! Report of the mesh repair at creation, and of the quality of the mesh.
 
 use serde::{Deserialize, Serialize};
 
-/// What the repair changed when a cloth was made from a mesh.
+/// Aspect ratio above which a triangle counts as thin.
+pub(super) const THIN_ASPECT: f64 = 100.0;
+/// What a thin triangle has.
+const THIN: &str = "a height under a hundredth of the longest edge";
+/// Share of the mean edge below which an edge counts as short.
+const SHORT_EDGE: f32 = 0.01;
+
+/// What the repair changed when a cloth was made from a mesh, and the quality of the result.
 ///
 /// The repairs run in this order: weld vertices, remove degenerate and duplicate triangles, split
 /// non-manifold edges and vertices, orient triangles consistently.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeshReport {
     /// Number of given vertices.
     pub vertices: u32,
@@ -38,6 +45,17 @@ pub struct MeshReport {
     pub one_sided_pieces: u32,
     /// Whether the mesh is a regular grid, so that the cloth uses the faster grid solver.
     pub is_grid: bool,
+    /// Length of the shortest edge [m].
+    pub shortest_edge: f32,
+    /// Mean length of the edges [m].
+    pub mean_edge: f32,
+    /// Largest aspect ratio of a triangle: its longest edge divided by its least height. 1.15 with
+    /// equal edges, 2 on a grid.
+    pub worst_aspect: f32,
+    /// Number of thin triangles: those with an aspect ratio above 100.
+    pub thin_triangles: u32,
+    /// The triangle with the largest aspect ratio, by its number among the given ones.
+    pub thinnest_triangle: u32,
 }
 
 impl MeshReport {
@@ -52,5 +70,52 @@ impl MeshReport {
             self.split_vertices,
         ];
         repairs.iter().all(|count| *count == 0)
+    }
+
+    /// Returns a sentence for each property of the mesh that its author should know of: what was
+    /// removed or split, and what makes the cloth slow or uneven. Empty for a good mesh.
+    ///
+    /// ```
+    /// use muslin::MeshReport;
+    ///
+    /// let report =
+    ///     MeshReport { thin_triangles: 37, thinnest_triangle: 41, ..MeshReport::default() };
+    /// assert_eq!(
+    ///     report.warnings(),
+    ///     ["37 triangles have a height under a hundredth of the longest edge; \
+    ///       the thinnest is triangle 41"]
+    /// );
+    /// ```
+    pub fn warnings(&self) -> Vec<String> {
+        let counted = [
+            (
+                self.dropped_degenerate,
+                "triangle was",
+                "triangles were",
+                "removed for lack of an area",
+            ),
+            (
+                self.split_edges,
+                "edge was",
+                "edges were",
+                "split: more than two triangles met there",
+            ),
+            (self.one_sided_pieces, "piece has", "pieces have", "one side only"),
+            (self.unused_vertices, "vertex is", "vertices are", "in no triangle"),
+            (self.thin_triangles, "triangle has", "triangles have", THIN),
+        ];
+        let mut warnings = Vec::new();
+        for (count, one, many, rest) in counted {
+            if count > 0 {
+                warnings.push(format!("{count} {} {rest}", if count == 1 { one } else { many }));
+            }
+        }
+        if let (1.., Some(last)) = (self.thin_triangles, warnings.last_mut()) {
+            *last += &format!("; the thinnest is triangle {}", self.thinnest_triangle);
+        }
+        if self.shortest_edge < SHORT_EDGE * self.mean_edge {
+            warnings.push("the shortest edge is under a hundredth of the mean edge".into());
+        }
+        warnings
     }
 }

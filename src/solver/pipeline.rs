@@ -171,8 +171,7 @@ fn begin_last_phase(world: &mut World) {
 
 /// Advances time and tick count by one tick.
 fn advance_clock(world: &mut World) {
-    world.time += f64::from(world.settings.tick);
-    world.tick = world.tick.wrapping_add(1);
+    world.clock.count_tick(world.settings.tick);
 }
 
 /// Runs substep `number` of the tick, counted from 0.

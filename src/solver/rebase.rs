@@ -47,7 +47,7 @@ impl World {
 
     /// Returns an event of this tick at a position relative to the origin.
     pub fn event_at(&self, kind: EventKind, x: Vec3) -> Event {
-        Event::new(kind, self.tick, self.to_absolute(x))
+        Event::new(kind, self.clock.tick, self.to_absolute(x))
     }
 
     /// Moves the origin to the first of these absolute positions [m] that would lose digits relative

@@ -52,6 +52,7 @@ use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::Attachments;
 use crate::state::colliders::Colliders;
 use crate::state::events::Events;
+use crate::state::frame_clock::FrameClock;
 use crate::state::grabs::Grabs;
 use crate::state::mass_scales::MassScales;
 use crate::state::particles::Particles;
@@ -156,10 +157,8 @@ pub(crate) struct World {
     pub maps: Maps,
     /// Parameters of the air. Written by the host.
     pub wind: Wind,
-    /// Time since creation or reset [s]. `pipeline` advances it.
-    pub time: f64,
-    /// Ticks since creation or reset. `pipeline` advances it.
-    pub tick: u32,
+    /// Simulated time, ticks, and frame time to simulate. `pipeline` and `cloth` advance it.
+    pub clock: FrameClock,
     /// Number of pieces: connected sets of triangles. Written by tears and cuts.
     pub pieces: u32,
     /// Largest number of triangles that the buffers can hold.

@@ -9,6 +9,7 @@ pub(crate) mod deformation;
 pub(crate) mod events;
 #[cfg(feature = "facet-colliders")]
 mod facet_desc;
+pub(crate) mod frame_clock;
 pub(crate) mod grabs;
 pub(crate) mod mass_scales;
 #[cfg(not(feature = "facet-colliders"))]

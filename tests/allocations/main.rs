@@ -10,6 +10,7 @@ use std::cell::Cell;
 #[path = "../common/mod.rs"]
 mod common;
 mod counting_allocator;
+mod crowds;
 mod layers;
 
 use counting_allocator::allocation_count;

@@ -56,6 +56,16 @@ static void the_mesh_report_counts_the_repairs(void) {
   CHECK(report.dropped_duplicates == 1 && report.dropped_degenerate == 2);
   CHECK(report.turned_triangles == 1 && report.split_edges == 0 && report.split_vertices == 0);
   CHECK(report.pieces == 1 && report.one_sided_pieces == 0 && report.is_grid == 0);
+  CHECK(report.shortest_edge > 0.0f && report.shortest_edge <= report.mean_edge);
+  CHECK(report.worst_aspect > 1.9f && report.thin_triangles == 0);
+  char text[200] = {7};
+  size_t needed = 0;
+  DONE(muslin_cloth_get_mesh_warnings(cloth, NULL, 0, &needed));
+  DONE(muslin_cloth_get_mesh_warnings(cloth, text, needed, NULL));
+  CHECK(needed == strlen(text) + 1);
+  CHECK(strcmp(text, "2 triangles were removed for lack of an area\n1 vertex is in no triangle") == 0);
+  REFUSED(muslin_cloth_get_mesh_warnings(cloth, text, needed - 1, NULL), MUSLIN_STATUS_BUFFER_TOO_SMALL,
+          "`size` must");
   MuslinMeshReport never_begun;
   memset(&never_begun, 0xee, sizeof never_begun);
   REFUSED(muslin_cloth_get_mesh_report(cloth, &never_begun), MUSLIN_STATUS_BAD_VALUE,

@@ -122,8 +122,24 @@ static void a_restored_cloth_continues_with_the_same_bits(void) {
   DONE(muslin_cloth_destroy(restored));
 }
 
+static void a_duplicate_and_a_list_continue_with_the_same_bits(void) {
+  MuslinCloth cloths[3] = {play_script()};
+  DONE(muslin_cloth_duplicate(cloths[0], &cloths[1]));
+  DONE(muslin_cloth_duplicate(cloths[1], &cloths[2]));
+  CHECK(cloths[1].id != cloths[0].id && hash_of(cloths[1]) == golden);
+  uint32_t ticks[3] = {7, 7, 7}, alone = 0;
+  DONE(muslin_cloths_advance(cloths, 2, 0.04f, ticks));
+  CHECK(ticks[0] == 2 && ticks[1] == 2 && ticks[2] == 7);
+  CHECK(hash_of(cloths[1]) == hash_of(cloths[0]) && hash_of(cloths[2]) == golden);
+  DONE(muslin_cloth_advance(cloths[2], 0.04f, &alone));
+  CHECK(alone == 2 && hash_of(cloths[2]) == hash_of(cloths[0]));
+  DONE(muslin_cloths_advance(NULL, 0, 0.04f, NULL));
+  for (int i = 0; i < 3; i++) DONE(muslin_cloth_destroy(cloths[i]));
+}
+
 int main(void) {
   TEST(the_script_ends_in_the_golden_hash);
   TEST(a_restored_cloth_continues_with_the_same_bits);
+  TEST(a_duplicate_and_a_list_continue_with_the_same_bits);
   return failures != 0;
 }

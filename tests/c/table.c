@@ -80,6 +80,8 @@ static void creating_destroying_and_saving(void) {
   ROW(muslin_cloth_create_mesh, desc, VALUE, "`vertex_count`", (&mesh, &made));
   ROW(muslin_cloth_create_mesh, desc, VALUE, "`desc`", (NULL, &made));
   ROW(muslin_cloth_create_mesh, out_cloth, VALUE, "`out_cloth`", (&mesh, NULL));
+  OF_NONE(muslin_cloth_duplicate, (none, &made));
+  ROW(muslin_cloth_duplicate, out_cloth, VALUE, "`out_cloth`", (cloth, NULL));
   OF_NONE(muslin_cloth_destroy, (none));
   OF_NONE(muslin_cloth_reset, (none));
   size_t size = 7;
@@ -115,6 +117,13 @@ static void parameters_time_and_particles(void) {
   OF_NONE(muslin_cloth_advance, (none, 1, &word));
   ROW(muslin_cloth_advance, seconds, VALUE, "`seconds`", (cloth, -1, &word));
   ANY(muslin_cloth_advance, out_ticks);
+  const MuslinCloth gone[2] = {cloth, none}, twice[2] = {cloth, cloth};
+  ROW(muslin_cloths_advance, cloths, VALUE, "`cloths`", (NULL, 1, 1, &word));
+  ROW(muslin_cloths_advance, cloths, HANDLE, "`cloths[1]`", (gone, 2, 1, &word));
+  ROW(muslin_cloths_advance, cloths, VALUE, "`cloths[1]`", (twice, 2, 1, &word));
+  ROW(muslin_cloths_advance, seconds, VALUE, "`seconds`", (&cloth, 1, -1, &word));
+  ANY(muslin_cloths_advance, count);
+  ANY(muslin_cloths_advance, out_ticks);
   OF_NONE(muslin_cloth_step, (none, 1));
   ANY(muslin_cloth_step, ticks);
   OF_NONE(muslin_cloth_pin, (none, 0, NULL));
@@ -405,6 +414,13 @@ static void views_statistics_and_streams(void) {
   muslin_changes_init(&changes);
   REPORT(muslin_cloth_view, MuslinView, out_view, "out_view");
   REPORT(muslin_cloth_get_mesh_report, MuslinMeshReport, out_report, "out_report");
+  size_t needed = 7;
+  char none_fits[1] = {7};
+  OF_NONE(muslin_cloth_get_mesh_warnings, (none, NULL, 0, &needed));
+  ROW(muslin_cloth_get_mesh_warnings, buffer, VALUE, "`out_needed`", (cloth, NULL, 0, NULL));
+  ROW(muslin_cloth_get_mesh_warnings, size, SMALL, "`size`", (cloth, none_fits, 0, &needed));
+  ROW(muslin_cloth_get_mesh_warnings, out_needed, VALUE, "`out_needed`", (cloth, NULL, 9, NULL));
+  CHECK(needed == 7 && none_fits[0] == 7);
   REPORT(muslin_cloth_get_stats, MuslinStats, out_stats, "out_stats");
   OF_NONE(muslin_cloth_changes, (none, 0, &changes));
   ANY(muslin_cloth_changes, since_topology_revision);

@@ -156,6 +156,15 @@ void a_cloth_does_all_that_c_does() {
   const std::vector<unsigned char> saved = cloth.save().value();
   muslin::Cloth same = muslin::Cloth::restore(saved.data(), saved.size()).value();
   CHECK(same.state_hash().value() == cloth.state_hash().value());
+  muslin::Cloth twins[] = {same.duplicate().value(), cloth.duplicate().value()};
+  std::uint32_t ticks[] = {7, 7};
+  muslin::Cloth::advance_many(twins, 2, 0.04f, ticks).value();
+  CHECK(ticks[0] == 2 && ticks[1] == 2);
+  CHECK(twins[0].state_hash().value() == twins[1].state_hash().value());
+  CHECK(twins[0].state_hash().value() != cloth.state_hash().value());
+  twins[1] = muslin::Cloth();
+  CHECK(muslin::Cloth::advance_many(twins, 2, 0.04f).status() == MUSLIN_STATUS_BAD_HANDLE);
+  CHECK(cloth.mesh_warnings().value().empty());
   cloth.crease({0, -2, 0}, {1, 2, 0}, 0.5f).value();
   CHECK(same.state_hash().value() != cloth.state_hash().value());
   CHECK(cloth.crease({0, 0, 0}, {0, 0, 0}, 0.5f).status() == MUSLIN_STATUS_BAD_VALUE);

@@ -6,6 +6,7 @@ mod common;
 
 mod anchors;
 mod architecture;
+mod crowds;
 mod examples;
 mod extreme_input;
 mod fuzz_regressions;

@@ -56,6 +56,7 @@ const answers = {
   cut: answer(() => cloth.cut([-1, -0.4, -9], [0.3, -0.5, -9], [0, 0, 18])),
   save: answer(() => cloth.save()),
   restore: answer(() => Cloth.restore(new Uint8Array(100))),
+  duplicate: answer(() => cloth.duplicate()),
   surface: answer(() => (cloth.settings = { selfCollision: true })),
   made: answer(() => Cloth.grid({ settings: { selfCollision: true } })),
   convex: answer(() => cloth.addCollider({ shape: "convex", positions: points })),

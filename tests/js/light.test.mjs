@@ -34,6 +34,7 @@ test("what the light module lacks throws an error that names it and changes noth
     cut: `\`cut\` ${where}`,
     save: `\`save\` ${where}`,
     restore: `\`Cloth.restore\` ${where}`,
+    duplicate: `\`duplicate\` ${where}`,
     surface: `surface self-collision ${where}`,
     made: `surface self-collision ${where}`,
     convex: facets,
@@ -46,7 +47,7 @@ test("what the light module lacks throws an error that names it and changes noth
 });
 
 test("the full module has what the light one lacks", () => {
-  for (const part of ["cut", "save", "surface", "made", "convex", "mesh", "heightfield", "layer"]) {
+  for (const part of ["cut", "save", "duplicate", "surface", "made", "convex", "mesh", "heightfield", "layer"]) {
     assert.equal(full.answers[part], "done", part);
   }
 });

@@ -46,7 +46,11 @@ test("meshReport counts every repair", () => {
   desc.indices.push(1, 0, 5, 7, 7, 8, 0, 1, 2);
   [desc.indices[6], desc.indices[7]] = [desc.indices[7], desc.indices[6]];
   const cloth = Cloth.mesh(desc);
-  assert.deepEqual(cloth.meshReport, {
+  const { shortestEdge, meanEdge, worstAspect, thinTriangles, thinnestTriangle, warnings, ...counts } = cloth.meshReport;
+  assert.ok(shortestEdge > 0 && meanEdge > shortestEdge && worstAspect > 1.9 && thinTriangles === 0);
+  assert.ok(thinnestTriangle < 83);
+  assert.deepEqual(warnings, ["2 triangles were removed for lack of an area"]);
+  assert.deepEqual(counts, {
     vertices: 60,
     triangles: 83,
     particles: 54,
@@ -98,4 +102,32 @@ test("a grid that is passed as a mesh moves with the bits of the grid", () => {
   assert.equal(mesh.meshReport.isGrid, true);
   for (const cloth of [grid, mesh]) cloth.step(60);
   assert.equal(mesh.stateHash(), grid.stateHash());
+});
+
+test("meshReport warns of every defect in the words of the core", () => {
+  // Three triangles on one edge, one without area, a vertex in no triangle; a small triangle apart.
+  const corners = [[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0.5, -1, 0], [0.5, 0, 1], [5, 5, 5]];
+  const small = [[9, 0, 0], [9.005, 0, 0], [9.0025, 0.005, 0]];
+  const indices = [0, 1, 2, 1, 0, 3, 0, 1, 4, 0, 0, 1, 6, 7, 8];
+  const { meshReport } = Cloth.mesh({ positions: [...corners, ...small].flat(), indices });
+  assert.deepEqual(meshReport.warnings, [
+    "1 triangle was removed for lack of an area",
+    "1 edge was split: more than two triangles met there",
+    "1 vertex is in no triangle",
+    "the shortest edge is under a hundredth of the mean edge",
+  ]);
+});
+
+test("meshReport measures the quality of a mesh and warns of thin triangles", () => {
+  // A right triangle of 1 m and 2 m, and a thin one with a height of 2 mm on an edge of 1 m.
+  const positions = [0, 0, 0, 1, 0, 0, 0, 2, 0, 0.5, -0.002, 0];
+  const { meshReport } = Cloth.mesh({ positions, indices: [0, 1, 2, 1, 0, 3] });
+  assert.ok(Math.abs(meshReport.worstAspect - 500) < 0.1 && meshReport.thinnestTriangle === 1);
+  assert.ok(Math.abs(meshReport.shortestEdge - 0.5) < 1e-4);
+  assert.ok(Math.abs(meshReport.meanEdge - (1 + 2 + Math.sqrt(5) + 2 * 0.500004) / 5) < 1e-5);
+  assert.deepEqual(meshReport.warnings, [
+    "1 triangle has a height under a hundredth of the longest edge; the thinnest is triangle 1",
+  ]);
+  assert.throws(() => meshReport.warnings.push(""), TypeError);
+  assert.deepEqual(Cloth.grid().meshReport.warnings, []);
 });

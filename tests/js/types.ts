@@ -120,6 +120,10 @@ cloth.step(10);
 cloth.reset();
 // @ts-expect-error: seconds are a number
 cloth.advance("1");
+const twin: Cloth = cloth.duplicate();
+const ran: Uint32Array = Cloth.advanceMany([cloth, twin], 1 / 60);
+// @ts-expect-error: an array of cloths
+Cloth.advanceMany(cloth, 1 / 60);
 const clocks: number = cloth.time + cloth.blend + ticks;
 
 const floats: Float32Array[] = [cloth.positions, cloth.relativePositions, cloth.normals, cloth.uvs];
@@ -127,6 +131,8 @@ const placeOfOrigin: readonly number[] = cloth.origin;
 const integers: Uint32Array[] = [cloth.indices, cloth.sourceVertices, cloth.vertexParticles, cloth.pinned];
 const report: Readonly<MeshReport> = other.meshReport;
 const repaired: number = report.weldedVertices + report.turnedTriangles + Number(report.isGrid);
+const quality: number = report.shortestEdge + report.meanEdge + report.worstAspect + report.thinTriangles;
+const sentences: readonly string[] = report.warnings;
 // @ts-expect-error: the report is read-only
 report.pieces = 2;
 // @ts-expect-error: views cannot be assigned

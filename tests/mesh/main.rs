@@ -6,6 +6,7 @@ mod common;
 mod change_tracking;
 mod cutting;
 mod garments;
+mod mesh_quality;
 mod mesh_repair;
 mod skin_tears;
 mod skins;

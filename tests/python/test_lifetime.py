@@ -197,3 +197,44 @@ def test_a_skin_keeps_its_cloth_and_ends_with_it() -> None:
         del skin, other
         gc.collect()
         assert log.count("destroyed") == 1
+
+
+def test_a_duplicate_has_the_same_bits_and_its_own_life() -> None:
+    with Log() as log:
+        cloth = Cloth.grid(10, 10)
+        cloth.step(5)
+        copy = cloth.duplicate()
+        assert copy.state_hash() == cloth.state_hash() and log.count("created") == 2
+        before = copy.state_hash()
+        for each in (cloth, copy):
+            each.step(3)
+        assert copy.state_hash() == cloth.state_hash() != before
+        del cloth
+        gc.collect()
+        copy.step(1)
+        assert log.count("destroyed") == 1 and copy.ticks == 9
+
+
+def test_many_cloths_advance_in_one_call() -> None:
+    first = Cloth.grid(10, 10, material="silk")
+    cloths = [first, *(first.duplicate() for _ in range(3))]
+    alone = first.duplicate()
+    ticks = Cloth.advance_many(cloths, 0.04)
+    assert ticks.dtype == np.uint32 and ticks.tolist() == [2] * 4 and alone.advance(0.04) == 2
+    assert {cloth.state_hash() for cloth in cloths} == {alone.state_hash()}
+    assert len(Cloth.advance_many([], 0.04)) == 0
+    closed = Cloth.grid(3, 3)
+    closed.close()
+    for wrong, rule in [(closed, "be an open"), (None, "be an open"), (first, "be another cloth")]:
+        with pytest.raises(Error, match=rule) as caught:
+            Cloth.advance_many([*cloths, wrong], 0.04)  # type: ignore[list-item]
+        assert caught.value.field == "cloths[4]"
+    with pytest.raises(Error, match="`seconds` must"):
+        Cloth.advance_many(cloths, -1)
+    busy = Cloth.grid(200, 200)
+    thread = start_stepping(busy, 60)
+    with pytest.raises(Error) as caught:
+        Cloth.advance_many([*cloths, busy], 0.04)
+    thread.join()
+    assert (caught.value.status, caught.value.field) == (Status.BUSY, "cloths[4]")
+    assert {cloth.ticks for cloth in cloths} == {2}

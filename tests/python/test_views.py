@@ -147,3 +147,17 @@ def test_particle_counts_include_those_of_tears(cloth: muslin.Cloth) -> None:
     assert cloth.velocities.shape == cloth.rest_positions.shape == (401, 3)
     assert cloth.mesh_report.particles == 400
     assert cloth.vertex_capacity >= 800 and cloth.index_capacity >= cloth.indices.size
+
+
+def test_the_mesh_report_measures_the_mesh_and_warns() -> None:
+    # A right triangle of 1 m and 2 m, and a thin one with a height of 2 mm on an edge of 1 m.
+    positions = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0.5, -0.002, 0]])
+    cloth = muslin.Cloth.mesh(positions, [[0, 1, 2], [1, 0, 3]])
+    report = cloth.mesh_report
+    assert report.worst_aspect == pytest.approx(500, rel=1e-4)
+    assert (report.thin_triangles, report.thinnest_triangle) == (1, 1)
+    assert report.shortest_edge == pytest.approx(0.5, abs=1e-4)
+    assert report.mean_edge == pytest.approx((1 + 2 + 5**0.5 + 1.000008) / 5, rel=1e-5)
+    (warning,) = cloth.mesh_warnings
+    assert warning.endswith("of the longest edge; the thinnest is triangle 1")
+    assert muslin.Cloth.grid(3, 3).mesh_warnings == ()

@@ -7,7 +7,7 @@ use crate::serve::{Mount, Server};
 use crate::{bits, files, js, npm, setup, shell, wasm};
 
 /// The tables of native code; in node all tables have one name.
-const NATIVE: [&str; 6] = ["kernels", "ticks", "shreds", "layers", "scenes", "receipt"];
+const NATIVE: [&str; 7] = ["kernels", "ticks", "shreds", "layers", "scenes", "receipt", "crowd"];
 const NODE: &str = "node";
 /// The cost of a page in a browser; runs only by name.
 const PAGE: &str = "page";
@@ -26,7 +26,7 @@ pub fn run(arguments: &[String]) -> Result {
     if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
         return Err(Failure::new(format!(
             "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, \
-             receipt, node, page, peers, avx2 and --test"
+             receipt, crowd, node, page, peers, avx2 and --test"
         )));
     }
     let options: &[&str] = if words.contains(&TEST) { &[TEST] } else { &[] };

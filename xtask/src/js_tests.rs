@@ -8,7 +8,8 @@ use crate::{bench, browser, files, js, npm, shell};
 
 /// Test files that take less than a minute without WebAssembly too. There `builds.test.mjs` plays
 /// the script.
-const QUICK: [&str; 5] = [
+const QUICK: [&str; 6] = [
+    "crowds.test.mjs",
     "meshes.test.mjs",
     "pointers.test.mjs",
     "refusals.test.mjs",

@@ -110,6 +110,13 @@ pub fn insert(cloth: Cloth) -> Result<MuslinCloth> {
     Ok(MuslinCloth { id: locked(&CLOTHS).insert(shared, "another cloth")? })
 }
 
+/// Returns a copy of a cloth.
+pub fn duplicate(cloth: MuslinCloth) -> Result<Cloth> {
+    let shared = find_cloth(cloth)?;
+    let entry = try_lock(&shared)?;
+    Ok(entry.as_ref().ok_or_else(CallError::bad_cloth)?.cloth.duplicate())
+}
+
 /// Makes a skin of a cloth, stores it and returns its handle.
 pub fn insert_skin(
     cloth: MuslinCloth,
@@ -183,6 +190,55 @@ pub fn with_two_cloths(
     })
 }
 
+/// Runs `call` with exclusive access to each of `handles`, the argument `cloths`. A panic makes all
+/// of them unusable.
+///
+/// The first handle that is no live cloth, that is in use, or that occurs twice is refused with its
+/// index; then `call` does not run.
+pub fn with_cloths(
+    handles: &[MuslinCloth],
+    call: impl FnOnce(&mut [&mut Cloth]) -> Result,
+) -> Result {
+    let shared = find_cloths(handles)?;
+    let mut entries = Vec::with_capacity(shared.len());
+    for (at, cloth) in shared.iter().enumerate() {
+        entries.push(try_lock(cloth).map_err(|error| refused_in_list(handles, at, error))?);
+    }
+    let mut cloths = Vec::with_capacity(entries.len());
+    for (at, entry) in entries.iter_mut().enumerate() {
+        let entry = entry.as_mut().ok_or_else(CallError::bad_cloth);
+        cloths.push(&mut entry.map_err(|error| refused_in_list(handles, at, error))?.cloth);
+    }
+    call(&mut cloths)
+}
+
+fn find_cloths(handles: &[MuslinCloth]) -> Result<Vec<SharedCloth>> {
+    let table = locked(&CLOTHS);
+    let find = |(at, cloth): (usize, &MuslinCloth)| {
+        let found = table.find(cloth.id).cloned().ok_or_else(CallError::bad_cloth);
+        found.map_err(|error| refused_in_list(handles, at, error))
+    };
+    handles.iter().enumerate().map(find).collect()
+}
+
+/// The error of a cloth, as that of the handle at `at` in the argument `cloths`.
+#[cold]
+fn refused_in_list(handles: &[MuslinCloth], at: usize, error: CallError) -> CallError {
+    let first = handles.iter().position(|cloth| cloth.id == handles[at].id);
+    let name = format!("`cloths[{at}]`");
+    match first.filter(|first| *first < at && error.status == MuslinStatus::Busy) {
+        // This very call has locked it.
+        Some(first) => CallError::bad_value(
+            format_args!("cloths[{at}]"),
+            format_args!("be another cloth than `cloths[{first}]`"),
+        ),
+        None => {
+            let message = error.message.replace("`cloth`", &name).replace("this cloth", &name);
+            CallError { message, ..error }
+        }
+    }
+}
+
 /// The part of `with_cloth` that is compiled once, not once per caller.
 fn with_cloth_dyn(cloth: MuslinCloth, call: &mut dyn FnMut(&mut Cloth) -> Result) -> Result {
     let shared = find_cloth(cloth)?;
@@ -216,6 +272,8 @@ pub fn destroy(cloth: MuslinCloth) -> MuslinStatus {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::status::last_error;
+    use core::ffi::CStr;
     use muslin_core::{GridDesc, SkinDesc};
 
     fn small_cloth() -> MuslinCloth {
@@ -273,6 +331,39 @@ mod tests {
         assert_eq!(destroy(other), MuslinStatus::Ok);
         assert_eq!(both(cloth, other), MuslinStatus::BadHandle);
         assert_eq!(destroy(cloth), MuslinStatus::Ok);
+    }
+
+    #[test]
+    fn calls_on_a_list_need_all_cloths_and_name_the_index() {
+        let cloths = [small_cloth(), small_cloth(), small_cloth()];
+        let [first, second, third] = cloths;
+        let all = |list: &[MuslinCloth]| run_guarded(|| with_cloths(list, |_| Ok(())));
+        let why = || {
+            // SAFETY: the message is valid until the next error on this thread.
+            unsafe { CStr::from_ptr(last_error()) }.to_str().unwrap().to_owned()
+        };
+        assert_eq!((all(&cloths), all(&[])), (MuslinStatus::Ok, MuslinStatus::Ok));
+        assert_eq!(all(&[first, second, second]), MuslinStatus::BadValue);
+        assert_eq!(why(), "`cloths[2]` must be another cloth than `cloths[1]`");
+        assert_eq!(all(&[first, MuslinCloth { id: 0 }]), MuslinStatus::BadHandle);
+        assert_eq!(why(), "`cloths[1]` must be a live cloth");
+        let status = with_cloth(second, |_| {
+            assert_eq!(all(&cloths), MuslinStatus::Busy);
+            assert_eq!(why(), "`cloths[1]` must not be in use on another thread");
+            Ok(())
+        });
+        assert_eq!((status, all(&cloths)), (MuslinStatus::Ok, MuslinStatus::Ok));
+        assert_eq!(with_cloth(third, |_| panic!("on purpose")), MuslinStatus::Panicked);
+        assert_eq!(all(&cloths), MuslinStatus::Panicked);
+        assert!(why().contains("an earlier call on `cloths[2]`; it"), "{}", why());
+        assert_eq!(destroy(third), MuslinStatus::Ok);
+        assert_eq!(all(&cloths), MuslinStatus::BadHandle);
+        let status = run_guarded(|| with_cloths(&cloths[..2], |_| panic!("on purpose")));
+        assert_eq!(status, MuslinStatus::Panicked);
+        for cloth in [first, second] {
+            assert_eq!(with_cloth(cloth, |_| Ok(())), MuslinStatus::Panicked);
+            assert_eq!(destroy(cloth), MuslinStatus::Ok);
+        }
     }
 
     #[test]

@@ -64,6 +64,15 @@ export class Cloth {
   static restore(buffer: Uint8Array | ArrayBuffer): Cloth;
 
   /**
+   * Creates an independent copy of the cloth, in the same state. Both continue with the same bits
+   * as long as they get the same calls. The copy has no grabs, attachments, colliders or skins in
+   * JavaScript: those objects stay with this cloth.
+   *
+   * @throws if there is not enough memory
+   */
+  duplicate(): Cloth;
+
+  /**
    * Frees the memory of the cloth at once. Calling it again has no effect. A cloth that you do not
    * free is freed some time after its last reference is gone and the page has yielded; a loop that
    * never yields runs out of memory. The console gets one warning when 32 cloths or more hold 256
@@ -90,6 +99,15 @@ export class Cloth {
    * @throws if `seconds` is negative or not finite
    */
   advance(seconds: number): number;
+  /**
+   * Advances many cloths by `seconds` of frame time, each as `advance` does and with the same bits,
+   * and returns how many ticks each of them ran. One call for a crowd costs less than one per cloth:
+   * a cloth that sleeps costs next to nothing.
+   *
+   * @throws if an element is not a live cloth or occurs twice, which names its index, or if
+   * `seconds` is negative or not finite; then no cloth advances
+   */
+  static advanceMany(cloths: readonly Cloth[], seconds: number): Uint32Array;
   /**
    * Runs exactly `ticks` ticks; default 1. Poses that were given before the call are reached in the
    * first of them.

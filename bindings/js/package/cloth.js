@@ -14,6 +14,7 @@ import {
   toUint8Array,
   toVector,
 } from "./check.js";
+import { advanceMany } from "./crowd.js";
 import { isTrap, requireMemory, viewOf } from "./memory.js";
 import { setState, stateOf } from "./state.js";
 import { countCloth, discountCloth } from "./usage.js";
@@ -40,14 +41,6 @@ const MESH_KEYS = [...MESH_LISTS, ...Object.keys(fields.MESH), "material", "sett
 /** No rotation. */
 const IDENTITY = [0, 0, 0, 1];
 
-/** Returns the material and the settings of a descriptor as flat lists. */
-function packMaterialAndSettings({ material = {}, settings = {} }) {
-  return [
-    fields.mergeMaterial(raw.default_material(), material, raw.preset_material),
-    fields.merge(fields.SETTINGS, raw.default_settings(), settings, "settings"),
-  ];
-}
-
 /** Makes a cloth; turns a trap of the module into an error about memory. */
 function makeCloth(build) {
   try {
@@ -73,7 +66,7 @@ function viewOfCloth(cloth, name, Kind, address, length) {
 export class Cloth {
   constructor(key, live) {
     checkConstructorKey(key, "a cloth is made by Cloth.grid(), Cloth.mesh() or Cloth.restore()");
-    const state = { live, views: {} };
+    const state = { live, address: live.address(), views: {} };
     setState(this, state);
     countCloth(this, state, readBytes(live.stats()));
   }
@@ -82,7 +75,7 @@ export class Cloth {
     requireMemory();
     checkKeys(desc, "desc", GRID_KEYS);
     const grid = fields.pack(fields.GRID, raw.default_grid(), desc);
-    const [material, settings] = packMaterialAndSettings(desc);
+    const [material, settings] = fields.packMaterialAndSettings(desc, raw);
     return makeCloth(() => raw.RawCloth.grid(grid, material, settings));
   }
 
@@ -94,7 +87,7 @@ export class Cloth {
     const uvs = toFloat32Array(desc.uvs ?? [], "uvs", 2);
     const pinned = toUint32Array(desc.pinned ?? [], "pinned");
     const mesh = fields.pack(fields.MESH, raw.default_mesh(), desc);
-    const [material, settings] = packMaterialAndSettings(desc);
+    const [material, settings] = fields.packMaterialAndSettings(desc, raw);
     return makeCloth(() => raw.RawCloth.mesh(positions, indices, uvs, pinned, mesh, material, settings));
   }
 
@@ -102,6 +95,15 @@ export class Cloth {
     requireMemory();
     const saved = toUint8Array(buffer, "buffer");
     return makeCloth(() => raw.RawCloth.restore(saved));
+  }
+
+  duplicate() {
+    const live = rawOf(this);
+    return makeCloth(() => live.duplicate());
+  }
+
+  static advanceMany(cloths, seconds) {
+    return advanceMany(cloths, (cloth) => cloth instanceof Cloth && stateOf(cloth, "Cloth"), seconds);
   }
 
   free() {

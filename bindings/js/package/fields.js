@@ -169,3 +169,11 @@ export function mergeMaterial(list, material, presetList) {
 function frozenSlice(list, start, size) {
   return Object.freeze(Array.from(list.subarray(start, start + size)));
 }
+
+/** Returns the material and the settings of a descriptor as flat lists. `raw` gives the defaults. */
+export function packMaterialAndSettings({ material = {}, settings = {} }, raw) {
+  return [
+    mergeMaterial(raw.default_material(), material, raw.preset_material),
+    merge(SETTINGS, raw.default_settings(), settings, "settings"),
+  ];
+}

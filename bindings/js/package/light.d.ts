@@ -6,7 +6,7 @@
  * All exports are those of `muslin`, and what the module has moves with the same bits. These throw an
  * `Error` that names them:
  *
- * - `cut`, `save` and `Cloth.restore`;
+ * - `cut`, `save`, `Cloth.restore` and `duplicate`;
  * - `selfCollision: true`; `"particles"` works;
  * - colliders of the shapes `"convex"`, `"mesh"` and `"heightfield"`, `Collider.update` and
  *   `collideWith`.

@@ -223,7 +223,7 @@ export interface Changes {
 }
 
 /**
- * How a mesh was repaired when the cloth was created, and what it is now. The order of the repairs
+ * How a mesh was repaired when the cloth was created, what it is now, and its quality. The order of the repairs
  * is: weld vertices; drop degenerate and duplicate triangles; split edges and vertices where more
  * than one sheet meets; turn triangles that face the other way than their neighbours.
  */
@@ -260,4 +260,22 @@ export interface MeshReport {
   oneSidedPieces: number;
   /** Whether the mesh was recognised as a regular grid, see `MeshDesc`. */
   isGrid: boolean;
+  /** Length of the shortest edge [m]. */
+  shortestEdge: number;
+  /** Mean length of the edges [m]. */
+  meanEdge: number;
+  /**
+   * Largest aspect ratio of a triangle: its longest edge divided by its least height. 1.15 with
+   * equal edges, 2 on a grid.
+   */
+  worstAspect: number;
+  /** Thin triangles: those with an aspect ratio above 100. */
+  thinTriangles: number;
+  /** The triangle with the largest aspect ratio, by its number among the given ones. */
+  thinnestTriangle: number;
+  /**
+   * A sentence for each property of the mesh that its author should know of: what was removed or
+   * split, and what makes the cloth slow or uneven. Empty for a good mesh.
+   */
+  warnings: readonly string[];
 }

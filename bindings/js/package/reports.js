@@ -67,7 +67,7 @@ export function readEvents(list) {
   return events;
 }
 
-/** Fields of the mesh report in the order of `mesh_report` in src/read.rs; `isGrid` comes last. */
+/** Fields of the mesh report in the order of `mesh_report` in src/read.rs. */
 const REPORT = [
   "vertices",
   "triangles",
@@ -82,11 +82,37 @@ const REPORT = [
   "unusedVertices",
   "pieces",
   "oneSidedPieces",
+  "thinTriangles",
+  "thinnestTriangle",
+  "isGrid",
+  "shortestEdge",
+  "meanEdge",
+  "worstAspect",
 ];
+
+/** The warnings of the core's `MeshReport::warnings`: here they take a fifth of the bytes. */
+const WARNINGS = [
+  ["droppedDegenerate", "triangle was", "triangles were", "removed for lack of an area"],
+  ["splitEdges", "edge was", "edges were", "split: more than two triangles met there"],
+  ["oneSidedPieces", "piece has", "pieces have", "one side only"],
+  ["unusedVertices", "vertex is", "vertices are", "in no triangle"],
+  ["thinTriangles", "triangle has", "triangles have", "a height under a hundredth of the longest edge"],
+];
+
+function warningsOf(report) {
+  const found = WARNINGS.filter(([name]) => report[name] > 0);
+  const warnings = found.map(([name, one, many, rest]) => `${report[name]} ${report[name] === 1 ? one : many} ${rest}`);
+  if (report.thinTriangles > 0) warnings.push(`${warnings.pop()}; the thinnest is triangle ${report.thinnestTriangle}`);
+  if (report.shortestEdge < 0.01 * report.meanEdge) {
+    warnings.push("the shortest edge is under a hundredth of the mean edge");
+  }
+  return warnings;
+}
 
 export function readMeshReport(list) {
   const report = Object.fromEntries(REPORT.map((name, index) => [name, list[index]]));
-  return Object.freeze({ ...report, isGrid: list[REPORT.length] !== 0 });
+  const warnings = Object.freeze(warningsOf(report));
+  return Object.freeze({ ...report, isGrid: report.isGrid !== 0, warnings });
 }
 
 export function readChanges([firstVertex, vertexCount, firstIndex, indexCount]) {

@@ -19,6 +19,11 @@ impl RawCloth {
     }
 
     /// Throws.
+    pub fn duplicate(&self) -> Result<RawCloth> {
+        Err(missing("`duplicate`"))
+    }
+
+    /// Throws.
     pub fn cut(&mut self, _blade: &[f64]) -> Result<u32> {
         Err(missing("`cut`"))
     }

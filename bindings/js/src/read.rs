@@ -77,10 +77,10 @@ impl RawCloth {
         self.cloth.vertex_particles().as_ptr()
     }
 
-    /// Returns the mesh report, in the order of `REPORT` in `package/reports.js`, then `is_grid`.
-    pub fn mesh_report(&self) -> Vec<u32> {
-        let report = self.cloth.mesh_report();
-        vec![
+    /// Returns the mesh report, in the order of `REPORT` in `package/reports.js`.
+    pub fn mesh_report(&self) -> Vec<f64> {
+        let (report, mut list) = (self.cloth.mesh_report(), Writer::default());
+        list.counts(&[
             report.vertices,
             report.triangles,
             report.particles,
@@ -94,8 +94,12 @@ impl RawCloth {
             report.unused_vertices,
             report.pieces,
             report.one_sided_pieces,
+            report.thin_triangles,
+            report.thinnest_triangle,
             u32::from(report.is_grid),
-        ]
+        ]);
+        list.numbers(&[report.shortest_edge, report.mean_edge, report.worst_aspect]);
+        list.0
     }
 
     /// Returns the ranges that changed since a topology revision: first vertex, vertex count, first

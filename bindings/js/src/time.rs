@@ -2,7 +2,7 @@
 
 use crate::RawCloth;
 use crate::error::{Result, to_js_error};
-use muslin::Clock;
+use muslin::{Clock, Cloth};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
@@ -21,6 +21,11 @@ impl RawCloth {
     /// Runs the ticks that `seconds` [s] of frame time are due, and returns how many ran.
     pub fn advance(&mut self, seconds: f64) -> Result<u32> {
         self.cloth.advance(seconds as f32).map_err(to_js_error)
+    }
+
+    /// Returns the address of the core's cloth, for `advance_many`. It is valid until `free`.
+    pub fn address(&mut self) -> *mut Cloth {
+        &raw mut self.cloth
     }
 
     /// Runs exactly `ticks` ticks.
@@ -63,4 +68,17 @@ impl RawCloth {
         self.is_timed = is_timed;
         self.cloth.set_clock(is_timed.then_some(page_clock as Clock));
     }
+}
+
+/// Advances the cloths at `addresses`, which `RawCloth::address` returned, by `seconds` [s] of frame
+/// time, and returns how many ticks each of them ran. `package/cloth.js` passes cloths that live,
+/// each once.
+#[wasm_bindgen]
+pub fn advance_many(addresses: &[u32], seconds: f64) -> Result<Vec<u32>> {
+    let cloth = |address: &u32| {
+        // SAFETY: by the contract above, the cloth lives and no other reference to it exists.
+        unsafe { &mut *(*address as usize as *mut Cloth) }
+    };
+    let mut cloths: Vec<&mut Cloth> = addresses.iter().map(cloth).collect();
+    Cloth::advance_many(&mut cloths, seconds as f32).map_err(to_js_error)
 }

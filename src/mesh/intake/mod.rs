@@ -66,7 +66,7 @@ pub(crate) fn repair(
     let mut mesh = Mesh::new(triangles, source_vertices.len(), capacity(source_vertices.len())?);
     let orientation = orient::orient(&mesh);
     mesh.flip_triangles(&orientation.flipped);
-    let report = MeshReport {
+    let mut report = MeshReport {
         vertices: count,
         triangles: given.len() as u32,
         particles: source_vertices.len() as u32,
@@ -80,8 +80,14 @@ pub(crate) fn repair(
         unused_vertices: count_unused(&vertices, positions.len()),
         pieces: orientation.pieces,
         one_sided_pieces: orientation.non_orientable,
-        is_grid: false,
+        ..MeshReport::default()
     };
+    let given_number = |triangle: u32| kept.triangles[triangle as usize];
+    report.measure_quality(
+        &mesh,
+        |p| positions[source_vertices[p as usize] as usize],
+        given_number,
+    );
     let is_plain = source_vertices.len() == positions.len() && manifold.copies.is_empty();
     let seams = (!is_plain).then(|| {
         for (corners, _) in

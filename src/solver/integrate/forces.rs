@@ -52,7 +52,7 @@ fn has_aerodynamics(world: &World) -> bool {
 /// Adds a field of sine waves as an acceleration, whatever the orientation of the cloth.
 fn add_sine_wind(world: &mut World, gravity: Vec3) {
     for i in 0..world.particles.len() {
-        let wind = world.wind.sine_field(world.time, world.origin, world.particles.x.get(i));
+        let wind = world.wind.sine_field(world.clock.time, world.origin, world.particles.x.get(i));
         world.scratch.acceleration.set(i, gravity + wind);
     }
 }
@@ -60,7 +60,7 @@ fn add_sine_wind(world: &mut World, gravity: Vec3) {
 /// Adds the pressure of the air on each triangle.
 fn add_surface_wind(world: &mut World, gravity: Vec3) {
     let (level, threads, p) = (world.level, world.threads, &world.particles);
-    let wind = world.wind.sample(world.time, world.origin);
+    let wind = world.wind.sample(world.clock.time, world.origin);
     let particles = (p.x.slices(), p.v.slices(), world.scratch.relative_wind.slices_mut());
     threads.parallel_for(particles, MIN_WIND_PARTICLES_PER_THREAD, |(x, v, air)| {
         subtract_velocity(level, &wind, x, v, air);

@@ -56,17 +56,26 @@ pub unsafe fn read_optional<T: Copy>(at: *const T) -> Option<T> {
     (!at.is_null()).then(|| unsafe { at.read_unaligned() })
 }
 
-/// Copies `count` numbers. The pointer may be NULL if `count` is 0.
+/// Copies `count` values. The pointer may be NULL if `count` is 0.
 ///
 /// # Safety
-/// `at` is NULL or points to `count` numbers.
-pub unsafe fn read_u32s(name: &str, at: *const u32, count: u32) -> Result<Vec<u32>> {
+/// `at` is NULL or points to `count` values.
+pub unsafe fn read_list<T: Copy>(name: &str, at: *const T, count: u32) -> Result<Vec<T>> {
     if count == 0 {
         return Ok(Vec::new());
     }
     check_not_null(name, at)?;
     // SAFETY: guaranteed by the caller.
     Ok((0..count as usize).map(|i| unsafe { at.add(i).read_unaligned() }).collect())
+}
+
+/// Copies `count` numbers. The pointer may be NULL if `count` is 0.
+///
+/// # Safety
+/// `at` is NULL or points to `count` numbers.
+pub unsafe fn read_u32s(name: &str, at: *const u32, count: u32) -> Result<Vec<u32>> {
+    // SAFETY: guaranteed by the caller.
+    unsafe { read_list(name, at, count) }
 }
 
 /// Copies `count` numbers. The pointer may be NULL if `count` is 0.
@@ -154,6 +163,30 @@ impl OutVec3s {
     }
 }
 
+/// A list of the caller that receives numbers; none at NULL.
+pub struct OutU32s {
+    at: *mut u32,
+    count: usize,
+}
+
+impl OutU32s {
+    /// A list of `count` numbers; none at NULL.
+    ///
+    /// # Safety
+    /// `at` is NULL or points to `count` numbers that are writable until the call returns.
+    pub unsafe fn new(at: *mut u32, count: u32) -> Self {
+        Self { at, count: if at.is_null() { 0 } else { count as usize } }
+    }
+
+    /// Writes as many numbers as the list holds.
+    pub fn write(self, numbers: &[u32]) {
+        for (i, number) in numbers.iter().take(self.count).enumerate() {
+            // SAFETY: the creator of `self` guaranteed `count` writable numbers, and `i` is below it.
+            unsafe { self.at.add(i).write_unaligned(*number) };
+        }
+    }
+}
+
 /// Borrows `size` bytes of the caller.
 ///
 /// # Safety
@@ -191,4 +224,25 @@ impl OutBuffer {
         unsafe { ptr::copy_nonoverlapping(bytes.as_ptr(), self.at, bytes.len()) };
         Ok(())
     }
+}
+
+/// Returns an error if a call is asked neither for bytes nor for their number.
+pub fn check_is_asked(buffer: &Option<OutBuffer>, out_needed: &Option<Out<usize>>) -> Result {
+    let is_asked = buffer.is_some() || out_needed.is_some();
+    check(is_asked, "out_needed", "not be NULL when `buffer` is NULL")
+}
+
+/// Writes `bytes` and their number to what the caller gave; refuses if they do not fit.
+pub fn write_bytes(
+    bytes: &[u8],
+    buffer: Option<OutBuffer>,
+    out_needed: Option<Out<usize>>,
+) -> Result {
+    if let Some(buffer) = buffer {
+        buffer.write(bytes)?;
+    }
+    if let Some(out_needed) = out_needed {
+        out_needed.write(bytes.len());
+    }
+    Ok(())
 }

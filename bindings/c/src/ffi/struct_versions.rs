@@ -44,7 +44,7 @@ versioned_structs! {
     MuslinEvent: source[4], count[4], "muslin_event_init";
     MuslinHit: normal[12], normal[12], "muslin_hit_init";
     MuslinView: state_revision[4], particles[size_of::<*const u32>()], "muslin_view_init";
-    MuslinMeshReport: is_grid[4], is_grid[4], "muslin_mesh_report_init";
+    MuslinMeshReport: is_grid[4], thinnest_triangle[4], "muslin_mesh_report_init";
     MuslinChanges: index_count[4], index_count[4], "muslin_changes_init";
     MuslinStream: size[size_of::<usize>()], size[size_of::<usize>()], "muslin_stream_init";
     MuslinSkinDesc: reserved[4], reserved[4], "muslin_skin_desc_init";

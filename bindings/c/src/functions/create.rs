@@ -73,6 +73,20 @@ pub unsafe extern "C" fn muslin_cloth_create_mesh(
     })
 }
 
+/// Makes an independent copy of a cloth, in the same state. Destroy it with muslin_cloth_destroy.
+///
+/// Both continue with the same bits as long as they get the same calls. Handles of grabs,
+/// attachments and colliders are valid for both; skins stay with `cloth`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_duplicate(
+    cloth: MuslinCloth,
+    out_cloth: *mut MuslinCloth,
+) -> MuslinStatus {
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+    let out_cloth = unsafe { Out::new("out_cloth", out_cloth) };
+    create(out_cloth, || registry::duplicate(cloth))
+}
+
 /// Destroys a cloth. Its handle becomes stale; memory borrowed from it must no longer be read.
 #[unsafe(no_mangle)]
 pub extern "C" fn muslin_cloth_destroy(cloth: MuslinCloth) -> MuslinStatus {

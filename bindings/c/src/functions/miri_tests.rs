@@ -150,6 +150,24 @@ fn a_grid_is_created_stepped_torn_read_saved_and_destroyed() {
         assert_ok(muslin_cloth_state_hash(cloth, &mut hash));
         assert_ok(muslin_cloth_state_hash(restored, &mut same));
         assert_eq!(hash, same);
+        let mut copy = MuslinCloth { id: 0 };
+        assert_ok(muslin_cloth_duplicate(restored, &mut copy));
+        // Unaligned lists that end where they must.
+        let mut bytes = [0_u8; 1 + 2 * size_of::<MuslinCloth>()];
+        let list = bytes.as_mut_ptr().add(1).cast::<MuslinCloth>();
+        list.write_unaligned(restored);
+        list.add(1).write_unaligned(copy);
+        let mut ticks = [0_u8; 1 + 2 * size_of::<u32>()];
+        let out_ticks = ticks.as_mut_ptr().add(1).cast::<u32>();
+        assert_ok(muslin_cloths_advance(list, 2, 0.0, out_ticks));
+        assert_ok(muslin_cloths_advance(list, 2, 0.0, null_mut()));
+        assert_ne!(muslin_cloths_advance(null(), 1, 0.0, null_mut()), MuslinStatus::Ok);
+        let mut text =
+            vec![0; written(|out| { muslin_cloth_get_mesh_warnings(cloth, null_mut(), 0, out) })];
+        let end = text.len();
+        let text = text.as_mut_ptr();
+        assert_ok(muslin_cloth_get_mesh_warnings(cloth, text, end, null_mut()));
+        assert_ok(muslin_cloth_destroy(copy));
         assert_ok(muslin_cloth_destroy(restored));
         assert_ne!(muslin_cloth_step(restored, 1), MuslinStatus::Ok, "the handle is stale");
     }

@@ -1,9 +1,9 @@
 //! Save and restore.
 
-use crate::ffi::pointers::{Out, OutBuffer, borrow_bytes};
+use crate::ffi::pointers::{Out, OutBuffer, borrow_bytes, check_is_asked, write_bytes};
 use crate::functions::create::create;
 use crate::registry::with_cloth;
-use crate::status::{CallError, MuslinStatus};
+use crate::status::MuslinStatus;
 use crate::types::value::MuslinCloth;
 use core::ffi::c_void;
 use muslin_core::Cloth;
@@ -27,17 +27,8 @@ pub unsafe extern "C" fn muslin_cloth_save(
     let (buffer, out_needed) =
         unsafe { (OutBuffer::new(buffer, size), Out::new_optional(out_needed)) };
     with_cloth(cloth, |cloth| {
-        if buffer.is_none() && out_needed.is_none() {
-            return Err(CallError::bad_value("out_needed", "not be NULL when `buffer` is NULL"));
-        }
-        let bytes = cloth.save();
-        if let Some(buffer) = buffer {
-            buffer.write(&bytes)?;
-        }
-        if let Some(out_needed) = out_needed {
-            out_needed.write(bytes.len());
-        }
-        Ok(())
+        check_is_asked(&buffer, &out_needed)?;
+        write_bytes(&cloth.save(), buffer, out_needed)
     })
 }
 

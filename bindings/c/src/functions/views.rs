@@ -1,6 +1,6 @@
 //! Reading: output lists, changes, mesh report, statistics and state hash.
 
-use crate::ffi::pointers::Out;
+use crate::ffi::pointers::{Out, OutBuffer, check_is_asked, write_bytes};
 use crate::ffi::versioned_struct::OutStruct;
 use crate::registry::with_cloth;
 use crate::status::MuslinStatus;
@@ -9,6 +9,7 @@ use crate::types::mesh_report::MuslinMeshReport;
 use crate::types::stats::MuslinStats;
 use crate::types::value::{MuslinCloth, MuslinVec3};
 use crate::types::view::MuslinView;
+use core::ffi::c_char;
 use std::sync::LazyLock;
 use std::time::Instant;
 
@@ -81,6 +82,32 @@ pub unsafe extern "C" fn muslin_cloth_get_mesh_report(
     with_cloth(cloth, |cloth| {
         out?.write(&cloth.mesh_report().into());
         Ok(())
+    })
+}
+
+/// Writes a sentence for each property of the mesh that its author should know of: what was removed
+/// or split, and what makes the cloth slow or uneven. The text has one sentence per line and ends
+/// with a zero byte; it is empty for a good mesh. It is written to `size` bytes at `buffer`;
+/// `out_needed` receives the number of bytes, with the zero byte.
+///
+/// If `buffer` is NULL, only that number is returned; otherwise `out_needed` may be NULL.
+///
+/// @return MUSLIN_STATUS_BUFFER_TOO_SMALL if the text does not fit: nothing is written, and
+/// muslin_last_error() states the required size
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn muslin_cloth_get_mesh_warnings(
+    cloth: MuslinCloth,
+    buffer: *mut c_char,
+    size: usize,
+    out_needed: *mut usize,
+) -> MuslinStatus {
+    // SAFETY: by the header's rules, each pointer is NULL or valid for the call.
+    let (buffer, out_needed) =
+        unsafe { (OutBuffer::new(buffer.cast(), size), Out::new_optional(out_needed)) };
+    with_cloth(cloth, |cloth| {
+        check_is_asked(&buffer, &out_needed)?;
+        let text = cloth.mesh_report().warnings().join("\n") + "\0";
+        write_bytes(text.as_bytes(), buffer, out_needed)
     })
 }
 

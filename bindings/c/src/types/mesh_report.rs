@@ -1,9 +1,9 @@
-//! Report of a mesh repair.
+//! Report of a mesh repair and of mesh quality.
 
 use muslin_core::MeshReport;
 
-/// What was repaired in a mesh before it became cloth, and the result. Initialise it with
-/// muslin_mesh_report_init.
+/// What was repaired in a mesh before it became cloth, and the quality of the result. Initialise it
+/// with muslin_mesh_report_init.
 ///
 /// Repairs are made in this order: vertices are welded; triangles without an area and repeated
 /// triangles are dropped; edges and vertices where several sheets meet are split; triangles that
@@ -43,6 +43,17 @@ pub struct MuslinMeshReport {
     pub one_sided_pieces: u32,
     /// 1 if the mesh is simulated as a regular grid, else 0.
     pub is_grid: u32,
+    /// Length of the shortest edge [m].
+    pub shortest_edge: f32,
+    /// Mean length of the edges [m].
+    pub mean_edge: f32,
+    /// Largest aspect ratio of a triangle: its longest edge divided by its least height. 1.15 with
+    /// equal edges, 2 on a grid.
+    pub worst_aspect: f32,
+    /// Number of thin triangles: those with an aspect ratio above 100.
+    pub thin_triangles: u32,
+    /// The triangle with the largest aspect ratio, by its number among the given ones.
+    pub thinnest_triangle: u32,
 }
 
 impl From<&MeshReport> for MuslinMeshReport {
@@ -63,6 +74,11 @@ impl From<&MeshReport> for MuslinMeshReport {
             pieces: report.pieces,
             one_sided_pieces: report.one_sided_pieces,
             is_grid: u32::from(report.is_grid),
+            shortest_edge: report.shortest_edge,
+            mean_edge: report.mean_edge,
+            worst_aspect: report.worst_aspect,
+            thin_triangles: report.thin_triangles,
+            thinnest_triangle: report.thinnest_triangle,
         }
     }
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from ctypes import byref, c_uint32, c_uint64, sizeof
+from ctypes import byref, c_size_t, c_uint32, c_uint64, create_string_buffer, sizeof
 from typing import Any
 
 import numpy as np
@@ -134,6 +134,16 @@ class Outputs(ClothBase):
         report = MeshReport._empty()
         lib.muslin_cloth_get_mesh_report(self._live, report)
         return MeshReport._from_c(report)
+
+    @property
+    def mesh_warnings(self) -> tuple[str, ...]:
+        """A sentence for each property of the mesh that its author should know of: what was removed
+        or split, and what makes the cloth slow or uneven. Empty for a good mesh."""
+        handle, needed = self._live, c_size_t()
+        lib.muslin_cloth_get_mesh_warnings(handle, None, 0, byref(needed))
+        text = create_string_buffer(needed.value)
+        lib.muslin_cloth_get_mesh_warnings(handle, text, needed.value, byref(needed))
+        return tuple(text.value.decode().splitlines())
 
     @property
     def stats(self) -> Stats:

@@ -149,10 +149,10 @@ impl SurfaceCollision {
     /// in the first substep of each tick.
     fn detect_intersections(&mut self, world: &World) {
         let Self { motion, bvh, pairs, contacts, speculative, intersections, gap, .. } = self;
-        let (mesh, start) = (&world.mesh, &motion.start);
+        let (mesh, start, tick) = (&world.mesh, &motion.start, world.clock.tick);
         intersections.clear();
         let scans = core::mem::take(&mut self.is_new_tick);
-        if world.is_tangled || scans && intersections.scan(mesh, bvh, pairs, start, world.tick) {
+        if world.is_tangled || scans && intersections.scan(mesh, bvh, pairs, start, tick) {
             let sizes = [*gap, world.mean_edge, world.regular_scheme().h];
             intersections.detect(mesh, (bvh, pairs), start, sizes);
             intersections.disable_contacts(contacts, speculative);

@@ -26,6 +26,7 @@ _SIGNATURES: Final[list[tuple[str, Any, list[Any]]]] = [
     ("muslin_set_log", None, [MuslinLogFn, c_uint32, c_void_p]),
     ("muslin_cloth_create_grid", None, [POINTER(MuslinGridDesc), POINTER(MuslinCloth)]),
     ("muslin_cloth_create_mesh", None, [POINTER(MuslinMeshDesc), POINTER(MuslinCloth)]),
+    ("muslin_cloth_duplicate", None, [MuslinCloth, POINTER(MuslinCloth)]),
     ("muslin_cloth_destroy", None, [MuslinCloth]),
     ("muslin_cloth_reset", None, [MuslinCloth]),
     ("muslin_material_preset", None, [POINTER(MuslinMaterial), c_uint32]),
@@ -35,6 +36,7 @@ _SIGNATURES: Final[list[tuple[str, Any, list[Any]]]] = [
     ("muslin_cloth_set_material", None, [MuslinCloth, POINTER(MuslinMaterial)]),
     ("muslin_cloth_set_wind", None, [MuslinCloth, POINTER(MuslinWind)]),
     ("muslin_cloth_advance", None, [MuslinCloth, c_float, c_void_p]),
+    ("muslin_cloths_advance", None, [POINTER(MuslinCloth), c_uint32, c_float, c_void_p]),
     ("muslin_cloth_step", None, [MuslinCloth, c_uint32]),
     ("muslin_cloth_get_blend", None, [MuslinCloth, c_void_p]),
     ("muslin_cloth_is_asleep", None, [MuslinCloth, c_void_p]),
@@ -108,6 +110,7 @@ _SIGNATURES: Final[list[tuple[str, Any, list[Any]]]] = [
     ("muslin_cloth_get_origin", None, [MuslinCloth, POINTER(MuslinVec3)]),
     ("muslin_cloth_changes", None, [MuslinCloth, c_uint32, POINTER(MuslinChanges)]),
     ("muslin_cloth_get_mesh_report", None, [MuslinCloth, POINTER(MuslinMeshReport)]),
+    ("muslin_cloth_get_mesh_warnings", None, [MuslinCloth, c_void_p, c_size_t, c_void_p]),
     ("muslin_cloth_get_stats", None, [MuslinCloth, POINTER(MuslinStats)]),
     ("muslin_cloth_state_hash", None, [MuslinCloth, c_void_p]),
     ("muslin_cloth_write_vertices", None, [

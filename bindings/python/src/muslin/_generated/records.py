@@ -302,7 +302,7 @@ class Changes(Record):
 
 @dataclass(frozen=True, kw_only=True)
 class MeshReport(Record):
-    """What was repaired in a mesh before it became cloth, and the result.
+    """What was repaired in a mesh before it became cloth, and the quality of the result.
 
     Repairs are made in this order: vertices are welded; triangles without an area and repeated
     triangles are dropped; edges and vertices where several sheets meet are split; triangles that
@@ -315,6 +315,8 @@ class MeshReport(Record):
         "welded_vertices": WHOLE, "dropped_degenerate": WHOLE, "dropped_duplicates": WHOLE,
         "turned_triangles": WHOLE, "split_edges": WHOLE, "split_vertices": WHOLE,
         "unused_vertices": WHOLE, "pieces": WHOLE, "one_sided_pieces": WHOLE, "is_grid": FLAG,
+        "shortest_edge": NUMBER, "mean_edge": NUMBER, "worst_aspect": NUMBER,
+        "thin_triangles": WHOLE, "thinnest_triangle": WHOLE,
     }
 
     vertices: int
@@ -350,6 +352,18 @@ class MeshReport(Record):
     """
     is_grid: bool
     """Whether the mesh is simulated as a regular grid."""
+    shortest_edge: float
+    """Length of the shortest edge [m]."""
+    mean_edge: float
+    """Mean length of the edges [m]."""
+    worst_aspect: float
+    """Largest aspect ratio of a triangle: its longest edge divided by its least height. 1.15 with
+    equal edges, 2 on a grid.
+    """
+    thin_triangles: int
+    """Number of thin triangles: those with an aspect ratio above 100."""
+    thinnest_triangle: int
+    """The triangle with the largest aspect ratio, by its number among the given ones."""
 
 
 @dataclass(frozen=True, kw_only=True)

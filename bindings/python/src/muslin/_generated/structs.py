@@ -279,13 +279,19 @@ class MuslinMeshReport(Structure):
     pieces: int
     one_sided_pieces: int
     is_grid: int
+    shortest_edge: float
+    mean_edge: float
+    worst_aspect: float
+    thin_triangles: int
+    thinnest_triangle: int
     _fields_ = [
         ("struct_size", c_uint32), ("vertices", c_uint32), ("triangles", c_uint32),
         ("particles", c_uint32), ("kept_triangles", c_uint32), ("welded_vertices", c_uint32),
         ("dropped_degenerate", c_uint32), ("dropped_duplicates", c_uint32),
         ("turned_triangles", c_uint32), ("split_edges", c_uint32), ("split_vertices", c_uint32),
         ("unused_vertices", c_uint32), ("pieces", c_uint32), ("one_sided_pieces", c_uint32),
-        ("is_grid", c_uint32),
+        ("is_grid", c_uint32), ("shortest_edge", c_float), ("mean_edge", c_float),
+        ("worst_aspect", c_float), ("thin_triangles", c_uint32), ("thinnest_triangle", c_uint32),
     ]
 
 
