@@ -64,6 +64,15 @@ pub(crate) struct TriangleStiffness {
     pub own: [f32; 3],
     /// Terms of the pairs in `PAIRS` [1/m²].
     pub between: [f32; 3],
+    /// Scale of the stiffness, which the terms include.
+    pub stiffness_scale: f32,
+}
+
+impl TriangleStiffness {
+    /// Multiplies the energy by `by`.
+    pub fn scale(&mut self, by: f32) {
+        self.own.iter_mut().chain(&mut self.between).for_each(|term| *term *= by);
+    }
 }
 
 /// A hinge at an edge of a triangle.
@@ -212,8 +221,8 @@ impl BendElements {
                 triangle_element.element(multipliers),
                 stiffness_scale(at, triangle_element.corners(hinges)),
             );
-            let terms = element.own.iter_mut().chain(&mut element.between);
-            terms.for_each(|term| *term *= stiffness_scale);
+            element.scale(stiffness_scale);
+            element.stiffness_scale = stiffness_scale;
             element
         }));
     }
@@ -248,8 +257,12 @@ impl BendTriangle {
         let mixed = [ac * bc - ab * d, ab * bc - ac * d, ab * ac - bc * d];
         let inverse_determinant = 1.0 / (d * minors[0] + (ab * mixed[0] + ac * mixed[1]));
         let slope_size = self.slope_size * self.slope_size;
-        let mut element =
-            TriangleStiffness { hinges: self.hinges, own: [0.0; 3], between: [0.0; 3] };
+        let mut element = TriangleStiffness {
+            hinges: self.hinges,
+            own: [0.0; 3],
+            between: [0.0; 3],
+            stiffness_scale: 1.0,
+        };
         for slot in 0..3 {
             let size = self.sizes[slot] * self.sizes[slot];
             let mean = 0.5 * (minors[slot] * inverse_determinant * size + slope_size);

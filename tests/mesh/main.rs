@@ -10,6 +10,7 @@ mod mesh_quality;
 mod mesh_repair;
 mod skin_tears;
 mod skins;
+mod slivers;
 mod tear_propagation;
 mod tearing;
 mod topology_snapshots;

@@ -20,7 +20,7 @@ use crate::model::hinge::{Hinge, hinge_normal};
 use crate::model::hinges::Hinges;
 use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::hinge::HingeStep;
-use crate::solver::bend::stiffness_matrix::StiffnessMatrix;
+use crate::solver::bend::stiffness_matrix::{Limits, StiffnessMatrix};
 use crate::solver::particle_stage::access::ParticleAccess;
 use glam::{Vec3, Vec4};
 
@@ -109,6 +109,8 @@ pub(crate) struct MeshBend<'a> {
     pub step: HingeStep,
     /// Stiffness over mass of hinges that are one mean edge apart.
     pub stiffness_over_mass: f32,
+    /// Mass per area [kg/m²].
+    pub density: f32,
     /// Whether this is the first solve of the substep.
     pub is_first: bool,
 }
@@ -177,7 +179,8 @@ impl MeshBend<'_> {
         let scale = |element: usize, corners: [u32; 3]| self.scale.of_element(element, &corners);
         let is_held = |vertex: u32| w[vertex as usize] == 0.0;
         self.hinges.elements.compute_stiffness(all, holds, is_held, scale, elements);
-        stiffness.assemble(all, elements, self.step.stiffness, count);
+        let limits = Limits { mass, density: self.density, stiffness: self.step.stiffness };
+        stiffness.assemble(all, elements, limits, count);
         let each = inverse_diagonal.iter_mut().zip(&*w).zip(&*mass).zip(stiffness.diagonal());
         for (((inverse_diagonal, w), mass), diagonal) in each {
             *inverse_diagonal = if *w > 0.0 { 1.0 / (mass + diagonal) } else { 0.0 };

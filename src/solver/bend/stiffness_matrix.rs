@@ -11,6 +11,7 @@
 //! Invariant: forces depend on differences of positions and come in opposite pairs, so they do not
 //! depend on where the mesh is, and they conserve linear momentum.
 
+use crate::math::min;
 use crate::math::sort::sort_by;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};
 use crate::model::hinge::Hinge;
@@ -18,6 +19,14 @@ use glam::Vec4;
 
 /// Entries per row: enough for a particle with eight triangles. Further entries go to `overflow`.
 const WIDTH: usize = 12;
+
+/// Largest stiffness of an element at a particle, in rigidities per area of the particle. Well-shaped
+/// elements have 1 to 20. Those of slivers would have thousands, and could not agree with the links.
+const MAX_RELATIVE_STIFFNESS: f32 = 30.0;
+
+/// Largest stiffness over mass that an element gives to a particle; beyond it the rounding of the
+/// matrix would be about as large as the mass.
+const MAX_STIFFNESS_OVER_MASS: f32 = 1.0e5;
 
 /// Hinge corners of a triangle: three hinges of four; 6 particles differ, unless the mesh is torn.
 const CORNERS: usize = 12;
@@ -56,12 +65,13 @@ impl StiffnessMatrix {
         }
     }
 
-    /// Assembles the matrix of `count` particles: all elements times `stiffness` [kg m²].
+    /// Assembles the matrix of `count` particles: all elements times the stiffness in `limits`.
+    /// Elements beyond the limits are softened.
     pub fn assemble(
         &mut self,
         hinges: &[Hinge],
-        elements: &[TriangleStiffness],
-        stiffness: f32,
+        elements: &mut [TriangleStiffness],
+        limits: Limits<'_>,
         count: usize,
     ) {
         self.rows.clear();
@@ -70,7 +80,13 @@ impl StiffnessMatrix {
         self.counts.resize(count, 0);
         self.overflow.clear();
         for element in elements {
-            let stencil = ElementStencil::of(hinges, element);
+            let mut stencil = ElementStencil::of(hinges, element);
+            let share = limits.share(&stencil, element);
+            if share < 1.0 {
+                element.scale(share);
+                stencil = ElementStencil::of(hinges, element);
+            }
+            let stiffness = limits.stiffness;
             for b in 1..stencil.count {
                 for a in 0..b {
                     self.add([stencil.at[a], stencil.at[b]], -stencil.stiffness(a, b) * stiffness);
@@ -151,6 +167,36 @@ impl StiffnessMatrix {
         let each = self.diagonal.iter().zip(&self.row_sum).zip(w);
         each.map(|((diagonal, row_sum), w)| (diagonal.abs() + row_sum) * w)
             .fold(0.0, |largest, each| if each > largest { each } else { largest })
+    }
+}
+
+/// What limits the stiffness of single elements.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits<'a> {
+    /// Mass of each particle [kg]; 0 without a limit.
+    pub mass: &'a [f32],
+    /// Mass per area [kg/m²].
+    pub density: f32,
+    /// Rigidity times h² [kg m²].
+    pub stiffness: f32,
+}
+
+impl Limits<'_> {
+    /// The share of its stiffness that an element keeps.
+    fn share(&self, stencil: &ElementStencil, element: &TriangleStiffness) -> f32 {
+        let mut share = 1.0;
+        for (at, particle) in stencil.at[..stencil.count].iter().enumerate() {
+            let (own, mass) = (stencil.stiffness(at, at), self.mass[*particle as usize]);
+            if mass > 0.0 {
+                let by_area =
+                    MAX_RELATIVE_STIFFNESS * element.stiffness_scale * self.density / mass;
+                let most = min(by_area, MAX_STIFFNESS_OVER_MASS * mass / self.stiffness);
+                if own * share > most {
+                    share = most / own;
+                }
+            }
+        }
+        share
     }
 }
 
