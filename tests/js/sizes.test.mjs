@@ -15,14 +15,14 @@ const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** The largest size of each file with gzip [B]. */
 const MAX_SIZES = {
-  "raw_bg.wasm": 458_550,
-  "plain_bg.wasm": 423_850,
-  "light_bg.wasm": 313_100,
-  "code.js": 534_350,
+  "raw_bg.wasm": 461_950,
+  "plain_bg.wasm": 425_800,
+  "light_bg.wasm": 315_500,
+  "code.js": 536_500,
 };
 
 /** The largest size of all scripts that every page loads, with gzip [B]. */
-const MAX_SCRIPT_SIZE = 15_150;
+const MAX_SCRIPT_SIZE = 15_800;
 
 /** Scripts that only some pages load. */
 const OPTIONAL = /^(bytes|inline|light|no-wasm|heap|code|three|three-with|pointers|react)\.js$/;
