@@ -2,7 +2,7 @@
 
 use crate::common::bare_grid;
 use muslin::glam::Vec3;
-use muslin::{Cloth, Error, GridDesc, Material, PinMode, Preset};
+use muslin::{Cloth, Error, GridDesc, Material, MeshDesc, PinMode, Preset};
 
 const SHEET: (u32, u32) = (12, 16);
 
@@ -92,6 +92,42 @@ fn scaling_all_masses_by_one_factor_does_not_change_the_motion() {
     let off = one.iter().zip(&eight).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
     println!("the positions differ by {off:.1e} m");
     assert!(off < 0.02, "the positions differ by {off} m");
+}
+
+/// The drop of the free end of a strip of a mesh, clamped at its other end [m], when all masses are
+/// multiplied by `scale` and gravity is divided by it.
+fn drop_of_mesh_strip(scale: f32) -> f32 {
+    let (columns, rows, cell) = (25_u32, 4_u32, 0.01);
+    let mut desc = MeshDesc::default();
+    for at in 0..columns * rows {
+        let (column, row) = (at % columns, at / columns);
+        // Shifted, so that the mesh is no grid.
+        let shift = if row % 2 == 1 && column > 1 { 0.4 } else { 0.0 };
+        desc.positions.push(Vec3::new(column as f32 + shift, 0.0, row as f32) * cell);
+        if column < 2 {
+            desc.pinned.push(at);
+        }
+        if column + 1 < columns && row + 1 < rows {
+            let [a, b, c, d] = [at, at + 1, at + columns, at + columns + 1];
+            desc.indices.extend([a, c, b, b, c, d]);
+        }
+    }
+    desc.material = Material { bend_stiffness: 1.0e-3, drag: 0.0, lift: 0.0, ..desc.material };
+    desc.settings.gravity = Vec3::NEG_Y * (9.81 / scale);
+    desc.settings.damping = 3.0;
+    let mut cloth = Cloth::mesh(&desc).unwrap();
+    assert!(!cloth.mesh_report().is_grid);
+    let all: Vec<u32> = (0..columns * rows).collect();
+    cloth.set_mass_scales(&all, &vec![scale; all.len()]).unwrap();
+    cloth.step((600.0 * scale.sqrt()) as u32);
+    -cloth.positions()[columns as usize - 1].y
+}
+
+#[test]
+fn heavy_particles_of_a_mesh_bend_as_stiffly_as_light_ones() {
+    let [light, heavy] = [1.0, 100.0].map(drop_of_mesh_strip);
+    println!("the strip drops by {light:.4} m, and {heavy:.4} m with a hundredfold mass");
+    assert!(light > 0.02 && (heavy / light - 1.0).abs() < 0.03, "{heavy} m instead of {light} m");
 }
 
 #[test]

@@ -20,7 +20,7 @@ use crate::model::hinge::{Hinge, hinge_normal};
 use crate::model::hinges::Hinges;
 use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::hinge::HingeStep;
-use crate::solver::bend::stiffness_matrix::{Limits, StiffnessMatrix};
+use crate::solver::bend::stiffness_matrix::StiffnessMatrix;
 use crate::solver::particle_stage::access::ParticleAccess;
 use glam::{Vec3, Vec4};
 
@@ -43,6 +43,8 @@ pub(crate) struct MeshBendScratch {
     /// Element energies and stiffness matrix; valid until links or held particles change.
     elements: Vec<TriangleStiffness>,
     stiffness: StiffnessMatrix,
+    /// Area of each particle at rest [m²]; 0 for held particles.
+    area: Vec<f32>,
     revision: u32,
     /// Key of the scales for which the matrix was assembled.
     scale_key: BendScaleKey,
@@ -79,6 +81,7 @@ impl MeshBendScratch {
         Self {
             elements: Vec::with_capacity(triangles),
             stiffness: StiffnessMatrix::with_capacity(capacity),
+            area: numbers(),
             revision: 0,
             scale_key: BendScaleKey::default(),
             chebyshev: None,
@@ -109,8 +112,9 @@ pub(crate) struct MeshBend<'a> {
     pub step: HingeStep,
     /// Stiffness over mass of hinges that are one mean edge apart.
     pub stiffness_over_mass: f32,
-    /// Mass per area [kg/m²].
-    pub density: f32,
+    /// Triangles, and the area of each corner at rest [m²].
+    pub triangles: &'a [[u32; 3]],
+    pub corner_area: &'a [[f32; 3]],
     /// Whether this is the first solve of the substep.
     pub is_first: bool,
 }
@@ -173,14 +177,20 @@ impl MeshBend<'_> {
 
     /// Assembles the matrix for the current links, stiffness and held particles.
     fn assemble(&self, scratch: &mut MeshBendScratch, count: usize) {
-        let MeshBendScratch { elements, stiffness, w, mass, inverse_diagonal, .. } = scratch;
+        let MeshBendScratch { elements, stiffness, area, w, mass, inverse_diagonal, .. } = scratch;
         let all = &self.hinges.all;
         let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
         let scale = |element: usize, corners: [u32; 3]| self.scale.of_element(element, &corners);
         let is_held = |vertex: u32| w[vertex as usize] == 0.0;
         self.hinges.elements.compute_stiffness(all, holds, is_held, scale, elements);
-        let limits = Limits { mass, density: self.density, stiffness: self.step.stiffness };
-        stiffness.assemble(all, elements, limits, count);
+        area.clear();
+        area.resize(count, 0.0);
+        for (triangle, areas) in self.triangles.iter().zip(self.corner_area) {
+            for (vertex, corner_area) in triangle.iter().zip(areas).filter(|(v, _)| !is_held(**v)) {
+                area[*vertex as usize] += corner_area;
+            }
+        }
+        stiffness.assemble(all, elements, self.step.stiffness, area);
         let each = inverse_diagonal.iter_mut().zip(&*w).zip(&*mass).zip(stiffness.diagonal());
         for (((inverse_diagonal, w), mass), diagonal) in each {
             *inverse_diagonal = if *w > 0.0 { 1.0 / (mass + diagonal) } else { 0.0 };

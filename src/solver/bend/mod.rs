@@ -253,7 +253,8 @@ fn solve_hinges(world: &mut World, step: HingeStep, order: SweepOrder) {
         step,
         stiffness_over_mass: step.stiffness * scale.largest()
             / (world.material.density * cell * cell),
-        density: world.material.density,
+        triangles: &world.mesh.triangles,
+        corner_area: &world.corner_area,
         is_first: order == SweepOrder::Forward,
     };
     let start = |i: usize| predicted.get(i) - displacement.get(i);

@@ -11,7 +11,6 @@
 //! Invariant: forces depend on differences of positions and come in opposite pairs, so they do not
 //! depend on where the mesh is, and they conserve linear momentum.
 
-use crate::math::min;
 use crate::math::sort::sort_by;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};
 use crate::model::hinge::Hinge;
@@ -21,12 +20,9 @@ use glam::Vec4;
 const WIDTH: usize = 12;
 
 /// Largest stiffness of an element at a particle, in rigidities per area of the particle. Well-shaped
-/// elements have 1 to 20. Those of slivers would have thousands, and could not agree with the links.
+/// elements have 1 to 20. Slivers would have thousands: links and bending then never agree, and the
+/// cloth never comes to rest.
 const MAX_RELATIVE_STIFFNESS: f32 = 30.0;
-
-/// Largest stiffness over mass that an element gives to a particle; beyond it the rounding of the
-/// matrix would be about as large as the mass.
-const MAX_STIFFNESS_OVER_MASS: f32 = 1.0e5;
 
 /// Hinge corners of a triangle: three hinges of four; 6 particles differ, unless the mesh is torn.
 const CORNERS: usize = 12;
@@ -65,28 +61,29 @@ impl StiffnessMatrix {
         }
     }
 
-    /// Assembles the matrix of `count` particles: all elements times the stiffness in `limits`.
-    /// Elements beyond the limits are softened.
+    /// Assembles the matrix: all elements times `stiffness` [kg m²]. `area` is that of each particle
+    /// [m²], or 0 where no limit applies; an element that is stiffer than `MAX_RELATIVE_STIFFNESS`
+    /// allows is scaled down.
     pub fn assemble(
         &mut self,
         hinges: &[Hinge],
         elements: &mut [TriangleStiffness],
-        limits: Limits<'_>,
-        count: usize,
+        stiffness: f32,
+        area: &[f32],
     ) {
         self.rows.clear();
+        let count = area.len();
         self.rows.resize(count, [NO_ENTRY; WIDTH]);
         self.counts.clear();
         self.counts.resize(count, 0);
         self.overflow.clear();
         for element in elements {
             let mut stencil = ElementStencil::of(hinges, element);
-            let share = limits.share(&stencil, element);
-            if share < 1.0 {
-                element.scale(share);
+            let scale = stencil.limiting_scale(element.stiffness_scale, area);
+            if scale < 1.0 {
+                element.scale(scale);
                 stencil = ElementStencil::of(hinges, element);
             }
-            let stiffness = limits.stiffness;
             for b in 1..stencil.count {
                 for a in 0..b {
                     self.add([stencil.at[a], stencil.at[b]], -stencil.stiffness(a, b) * stiffness);
@@ -170,36 +167,6 @@ impl StiffnessMatrix {
     }
 }
 
-/// What limits the stiffness of single elements.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Limits<'a> {
-    /// Mass of each particle [kg]; 0 without a limit.
-    pub mass: &'a [f32],
-    /// Mass per area [kg/m²].
-    pub density: f32,
-    /// Rigidity times h² [kg m²].
-    pub stiffness: f32,
-}
-
-impl Limits<'_> {
-    /// The share of its stiffness that an element keeps.
-    fn share(&self, stencil: &ElementStencil, element: &TriangleStiffness) -> f32 {
-        let mut share = 1.0;
-        for (at, particle) in stencil.at[..stencil.count].iter().enumerate() {
-            let (own, mass) = (stencil.stiffness(at, at), self.mass[*particle as usize]);
-            if mass > 0.0 {
-                let by_area =
-                    MAX_RELATIVE_STIFFNESS * element.stiffness_scale * self.density / mass;
-                let most = min(by_area, MAX_STIFFNESS_OVER_MASS * mass / self.stiffness);
-                if own * share > most {
-                    share = most / own;
-                }
-            }
-        }
-        share
-    }
-}
-
 /// The particles of a bending element, and its dense stiffness over them.
 struct ElementStencil {
     at: [u32; CORNERS],
@@ -240,6 +207,16 @@ impl ElementStencil {
             self.at[self.count] = vertex;
             self.count += 1;
             self.count - 1
+        })
+    }
+
+    /// The scale, at most 1, that brings the element within `MAX_RELATIVE_STIFFNESS` times its own
+    /// `stiffness_scale` at all its particles.
+    fn limiting_scale(&self, stiffness_scale: f32, area: &[f32]) -> f32 {
+        let most = MAX_RELATIVE_STIFFNESS * stiffness_scale;
+        self.at[..self.count].iter().enumerate().fold(1.0, |scale, (at, particle)| {
+            let relative = self.stiffness(at, at) * area[*particle as usize];
+            if relative * scale > most { most / relative } else { scale }
         })
     }
 
