@@ -122,13 +122,12 @@ impl Error {
                 ["`", field, "[", &digits(*index), "]` must ", must].concat()
             }
             Self::BadCount { field, count, needed } => {
-                let [count, needed] = [count, needed].map(|number| digits(*number));
                 let entries = " entries, one per particle, but has ";
-                ["`", field, "` must have ", &needed, entries, &count].concat()
+                ["`", field, "` must have ", &digits(*needed), entries, &digits(*count)].concat()
             }
             Self::BadIndex { field, index, count } => {
-                let [index, count] = [index, count].map(|number| digits(*number));
-                ["`", field, "` must be below ", &count, ", but is ", &index].concat()
+                let (below, is) = ("` must be below ", ", but is ");
+                ["`", field, below, &digits(*count), is, &digits(*index)].concat()
             }
             Self::BadHandle { what } => {
                 ["`", what, "` must be a live ", what, " of this cloth"].concat()
@@ -140,10 +139,9 @@ impl Error {
                 ["`streams[", &digits(*stream), "].", field, "` must ", must].concat()
             }
             Self::SmallStream { stream, needed, size } => {
-                let [needed, size] = [needed, size].map(|number| digits(*number));
-                let stream = digits(*stream);
-                let parts = ["`streams[", &stream, "].size` must be at least ", &needed];
-                [&parts[..], &[", but is ", &size]].concat().concat()
+                let (least, is) = ("].size` must be at least ", ", but is ");
+                ["`streams[", &digits(*stream), least, &digits(*needed), is, &digits(*size)]
+                    .concat()
             }
             Self::Full { what } => ["no room is left for ", what].concat(),
             Self::BadSave { why } => ["`buffer` must hold a saved cloth: ", why].concat(),

@@ -36,7 +36,7 @@ impl TrackedWorld {
 
     /// Makes the clock idle after ticks that the cloth slept through, until the next change.
     ///
-    /// A host that measures stages gets none of this: its times are reset in each call.
+    /// Does nothing while the host measures stages, because each call then resets their times.
     pub fn begin_idle(&mut self) {
         let world = &mut self.0;
         if world.profile.clock().is_none() {

@@ -26,7 +26,7 @@ pub(crate) struct FrameClock {
 
 impl FrameClock {
     /// Adds `seconds` [s] to the backlog, and returns the number of ticks of `tick` seconds that
-    /// are due, at most `max_ticks`. The rest of the backlog beyond one tick is dropped.
+    /// are due. Ticks beyond `max_ticks` are dropped, and less than one tick stays in the backlog.
     pub fn take_due_ticks(&mut self, seconds: f32, tick: f32, max_ticks: u32) -> u32 {
         let tick = f64::from(tick);
         let backlog = self.backlog + f64::from(seconds);

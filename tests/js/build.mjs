@@ -3,22 +3,11 @@
 // whether views and restore work. The second word makes this engine one without SIMD, or without
 // WebAssembly.
 
+import { limitEngine } from "./engine.mjs";
 import { hexOf, playScript } from "./script.mjs";
 
 const [specifier, ...missing] = process.argv.slice(2);
-const compiled = [];
-if (missing.includes("no-simd")) WebAssembly.validate = () => false;
-if (missing.includes("no-wasm")) {
-  delete globalThis.WebAssembly;
-} else {
-  const { Module } = WebAssembly;
-  WebAssembly.Module = class extends Module {
-    constructor(bytes) {
-      super(bytes);
-      compiled.push(bytes.byteLength);
-    }
-  };
-}
+const compiled = limitEngine(missing);
 
 const { default: init, Cloth } = await import(specifier);
 await init();

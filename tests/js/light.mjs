@@ -2,18 +2,11 @@
 // prints, as JSON, the state hash, what happened, what the rest answers, and the sizes of the modules
 // that were compiled. The second word makes this engine one without SIMD.
 
+import { limitEngine } from "./engine.mjs";
 import { hexOf } from "./script.mjs";
 
 const [specifier, ...missing] = process.argv.slice(2);
-if (missing.includes("no-simd")) WebAssembly.validate = () => false;
-const compiled = [];
-const { Module } = WebAssembly;
-WebAssembly.Module = class extends Module {
-  constructor(bytes) {
-    super(bytes);
-    compiled.push(bytes.byteLength);
-  }
-};
+const compiled = limitEngine(missing);
 
 const { default: init, Cloth } = await import(specifier);
 await init();

@@ -65,8 +65,8 @@ export class Cloth {
 
   /**
    * Creates an independent copy of the cloth, in the same state. Both continue with the same bits
-   * as long as they get the same calls. The copy has no grabs, attachments, colliders or skins in
-   * JavaScript: those objects stay with this cloth.
+   * as long as they get the same calls. Grabs, attachments and colliders act on the copy too, but
+   * their objects belong to this cloth and change only this cloth. Skins are not copied.
    *
    * @throws if there is not enough memory
    */

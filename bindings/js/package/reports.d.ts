@@ -223,9 +223,9 @@ export interface Changes {
 }
 
 /**
- * How a mesh was repaired when the cloth was created, what it is now, and its quality. The order of the repairs
- * is: weld vertices; drop degenerate and duplicate triangles; split edges and vertices where more
- * than one sheet meets; turn triangles that face the other way than their neighbours.
+ * How a mesh was repaired when the cloth was created, what it is now, and its quality. The order of
+ * the repairs is: weld vertices; drop degenerate and duplicate triangles; split edges and vertices
+ * where more than one sheet meets; turn triangles that face the other way than their neighbours.
  */
 export interface MeshReport {
   /** Vertices in the descriptor. */
