@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use wasm_bindgen_cli_support::Bindgen;
 
 use crate::failure::{During, Result};
-use crate::{c, files, setup, shell, traps};
+use crate::{c, files, function_order, setup, shell, traps};
 
 /// The Rust target of pages.
 pub const TARGET: &str = "wasm32-unknown-unknown";
@@ -50,7 +50,8 @@ pub fn build(package: &str, dir: &Path, name: &str) -> Result {
     write(&mut bindgen, dir, name).during(during)
 }
 
-/// Writes `name_bg.wasm` and `name_bg.js` into `dir`, with traps instead of panics. The script receives
+/// Writes `name_bg.wasm` and `name_bg.js` into `dir`, with traps instead of panics, and with
+/// similar functions next to each other. The script receives
 /// the exports of the module from its caller, so that JavaScript can replace the module; it needs
 /// neither reference types nor multiple results.
 pub fn bind(module: &Path, dir: &Path, name: &str) -> Result {
@@ -61,7 +62,10 @@ pub fn bind(module: &Path, dir: &Path, name: &str) -> Result {
     }
     let mut bindgen = Bindgen::new();
     bindgen.bundler(true).during(during)?.input_bytes(name, bytes);
-    write(&mut bindgen, dir, name).during(during)
+    write(&mut bindgen, dir, name).during(during)?;
+    let module = dir.join(format!("{name}_bg.wasm"));
+    let bytes = std::fs::read(&module).during(during)?;
+    std::fs::write(&module, function_order::in_module(&bytes)?).during(during)
 }
 
 /// Removes a feature from those that a module says it uses. Rust's standard library lists some that
