@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn remainders_have_the_bits_of_the_operator() {
-        let mut x = 1.0e-3;
+        let mut x = 1.0e-3_f64;
         while x < 1.0e300 {
             for x in [x, -x, x.round()] {
                 for divisor in [TAU, 1.0, 0.3] {
