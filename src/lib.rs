@@ -70,7 +70,7 @@
 //!
 //! # Features
 //!
-//! Four parts can be left out to make programs smaller; by default all are there:
+//! Six parts can be left out to make programs smaller; by default all are there:
 //!
 //! | feature | without it |
 //! | --- | --- |
@@ -78,6 +78,8 @@
 //! | `facet-colliders` | [`Shape::Convex`], [`Shape::Mesh`] and [`Shape::Heightfield`] are refused; `Cloth::update_collider` and `Cloth::collide_with` do not exist |
 //! | `cut` | `Cloth::cut` does not exist; tears do |
 //! | `save` | `Cloth::save` and `Cloth::restore` do not exist |
+//! | `sewing` | `Cloth::sew`, `SewDesc` and `SewKind` do not exist |
+//! | `skins` | `Skin` and `SkinDesc` do not exist |
 //!
 //! Refusals are [`Error::MissingFeature`]. A save that needs a missing part is refused too. What a
 //! build has moves with the same bits as in a build with everything.
@@ -94,7 +96,9 @@
         feature = "cut",
         feature = "facet-colliders",
         feature = "save",
-        feature = "self-collision"
+        feature = "self-collision",
+        feature = "sewing",
+        feature = "skins"
     )),
     allow(dead_code, unused_imports)
 )]
@@ -117,7 +121,9 @@ pub use crate::cloth::changes::Changes;
 pub use crate::cloth::desc::{AS_MANY_AGAIN, GridDesc, MeshDesc, PinMode};
 pub use crate::cloth::mass_properties::MassProperties;
 pub use crate::cloth::query::Hit;
+#[cfg(feature = "skins")]
 pub use crate::cloth::skin::Skin;
+#[cfg(feature = "skins")]
 pub use crate::cloth::skin::given_mesh::SkinDesc;
 pub use crate::cloth::vertex_stream::{
     ALL_VERTICES, Attribute, MAX_STREAMS, Stream, VertexFormat, WriteDesc,
@@ -137,6 +143,7 @@ pub use crate::state::colliders::{Collider, Impulse};
 pub use crate::state::events::{Event, EventKind};
 pub use crate::state::grabs::Grab;
 pub use crate::state::settings::{SelfCollision, Settings};
+#[cfg(feature = "sewing")]
 pub use crate::state::sewing::{SewDesc, SewKind};
 pub use crate::state::wind::{Wind, WindModel};
 pub use glam;

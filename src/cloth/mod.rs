@@ -43,6 +43,7 @@ mod ray_tree;
 #[cfg(feature = "save")]
 mod save;
 mod sew;
+#[cfg(feature = "skins")]
 pub(crate) mod skin;
 mod state_hash;
 mod tear;

@@ -291,6 +291,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require(saved.anchors.are_valid(count))?;
     world.anchors = saved.anchors.into_owned();
     world.reserve_anchor_scratch();
+    saved.sewing.check_feature()?;
     require(saved.sewing.is_valid(count))?;
     world.sewing = saved.sewing.into_owned();
     world.sewing.rebuild();

@@ -3,6 +3,7 @@
 //! Reads the caller's pairs; writes `World::sewing`, which `solver::stretch::sewn_pairs` acts on.
 //! Invariant: all pairs are checked before the first is added.
 
+#[cfg(feature = "sewing")]
 use crate::cloth::Cloth;
 use crate::error::{Error, Result};
 use crate::math::columns::Columns;
@@ -11,6 +12,7 @@ use crate::mesh::NONE;
 use crate::solver::world::World;
 use crate::state::sewing::{SewDesc, SewState, SewnPair};
 
+#[cfg(feature = "sewing")]
 impl Cloth {
     /// Sews pairs of particles together: draws each pair together at `desc.speed` [m/s], and joins
     /// it when its distance is zero.
@@ -93,6 +95,9 @@ impl World {
     /// Opens all sewn pairs again, to be drawn together from where their particles are. Pairs of
     /// particles that do not exist are dropped.
     pub(super) fn restart_sewing(&mut self) {
+        if self.sewing.is_empty() {
+            return;
+        }
         let (x, count) = (&self.particles.x, self.particles.len() as u32);
         self.sewing.pairs.retain(|pair| pair.particles.iter().all(|particle| *particle < count));
         for pair in &mut self.sewing.pairs {

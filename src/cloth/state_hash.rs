@@ -71,7 +71,7 @@ impl Cloth {
                 anchor.backstop_radius,
             ]);
         }
-        for pair in &world.sewing.pairs {
+        for pair in world.sewing.pairs() {
             hasher.write_u32s(&pair.particles);
             hasher.write_u32s(&[pair.kind as u32, pair.state as u32]);
             hasher.write_f32s(&[pair.length, pair.speed, pair.tear_force]);

@@ -115,9 +115,33 @@ fn cos_series(r: f64) -> f64 {
     1.0 - s / 2.0 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * tail)))
 }
 
+/// Returns `x % divisor` bit for bit, for a positive divisor, by long division. Each difference is
+/// exact, since it is of two numbers that differ by at most a factor of two (Sterbenz).
+///
+/// The operator calls `fmod`, which makes a wasm module larger.
+pub(crate) fn remainder(x: f64, divisor: f64) -> f64 {
+    if !x.is_finite() {
+        return f64::NAN;
+    }
+    let (mut rest, mut step) = (x.abs(), divisor);
+    while step <= 0.5 * rest {
+        step *= 2.0;
+    }
+    loop {
+        if step <= rest {
+            rest -= step;
+        }
+        if step <= divisor {
+            return rest.copysign(x);
+        }
+        step *= 0.5;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use core::f64::consts::TAU;
 
     #[test]
     fn arcsine_is_accurate() {
@@ -165,5 +189,22 @@ mod tests {
             assert!((ours - exact).abs() <= exact * 1.2e-7, "exp {x}: {ours} {exact}");
         }
         assert_eq!(exp_decay(1.0), 1.0);
+    }
+
+    #[test]
+    fn remainders_have_the_bits_of_the_operator() {
+        let mut x = 1.0e-3_f64;
+        while x < 1.0e300 {
+            for x in [x, -x, x.round()] {
+                for divisor in [TAU, 1.0, 0.3] {
+                    assert_eq!(remainder(x, divisor).to_bits(), (x % divisor).to_bits(), "{x}");
+                }
+            }
+            x *= 1.37;
+        }
+        for x in [0.0, -0.0, TAU, -TAU, 2.0 * TAU, f64::MAX] {
+            assert_eq!(remainder(x, TAU).to_bits(), (x % TAU).to_bits(), "{x}");
+        }
+        assert!(remainder(f64::INFINITY, TAU).is_nan());
     }
 }

@@ -5,10 +5,11 @@
 //!         ●●                                 closed: one place, one velocity
 //! ```
 //! Data only; `cloth::sew` and `solver::stretch::sewn_pairs` write it.
+//! Without the feature `sewing` there are no pairs, and the compiler removes what handles them.
 //! Invariant: the lists that follow from the pairs are up to date after `rebuild` or
 //! `refresh_groups`, and have no entries but those of the particles of the pairs.
 
-use crate::error::{Result, check};
+use crate::error::{Error, Result, check};
 use crate::math::sort::sort;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -133,13 +134,20 @@ pub(crate) struct Sewing {
 }
 
 impl Sewing {
+    /// All pairs; none without the feature `sewing`.
+    #[inline]
+    pub fn pairs(&self) -> &[SewnPair] {
+        if cfg!(feature = "sewing") { &self.pairs } else { &[] }
+    }
+
+    #[inline]
     pub fn is_empty(&self) -> bool {
-        self.pairs.is_empty()
+        self.pairs().is_empty()
     }
 
     /// Whether any pair is still drawn together.
     pub fn is_drawing(&self) -> bool {
-        self.pairs.iter().any(|pair| pair.state == SewState::Drawn)
+        self.pairs().iter().any(|pair| pair.state == SewState::Drawn)
     }
 
     /// Rebuilds all lists after pairs were added or restored.
@@ -198,7 +206,7 @@ impl Sewing {
 
     /// Whether a closed pair holds a particle.
     pub fn is_joined(&self, particle: u32) -> bool {
-        self.members.binary_search(&particle).is_ok_and(|at| self.joined[at])
+        !self.is_empty() && self.members.binary_search(&particle).is_ok_and(|at| self.joined[at])
     }
 
     /// The particles of each welded group of two or more.
@@ -210,6 +218,14 @@ impl Sewing {
             core::iter::successors(Some(first), move |at| is_member(self.next_welded[*at as usize]))
                 .map(|at| self.members[at as usize] as usize)
         })
+    }
+
+    /// Refuses pairs that were saved by a build with the feature `sewing`, in one without it.
+    pub fn check_feature(&self) -> Result<()> {
+        if self.pairs.len() == self.pairs().len() {
+            return Ok(());
+        }
+        Err(Error::MissingFeature { what: "a sewn pair", feature: "sewing" })
     }
 
     /// Whether the pairs fit a cloth of `count` particles.
@@ -255,5 +271,27 @@ fn join(groups: &mut [u32], ends: [u32; 2]) {
 fn flatten(groups: &mut [u32]) {
     for at in 0..groups.len() {
         groups[at] = groups[groups[at] as usize];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn saved_pairs_are_refused_without_the_feature() {
+        assert_eq!(Sewing::default().check_feature(), Ok(()));
+        let pair = SewnPair {
+            particles: [0, 1],
+            kind: SewKind::Weld,
+            state: SewState::Closed,
+            length: 0.0,
+            speed: 1.0,
+            tear_force: 0.0,
+        };
+        let sewing = Sewing { pairs: vec![pair], ..Sewing::default() };
+        let has_feature = cfg!(feature = "sewing");
+        assert_eq!(sewing.check_feature().is_ok(), has_feature);
+        assert_eq!(sewing.is_empty(), !has_feature);
     }
 }

@@ -6,7 +6,7 @@
 
 use crate::error::{Result, check, check_finite};
 use crate::math::hasher::unit;
-use crate::math::trig::{cos, sin, sin_branchless};
+use crate::math::trig::{cos, remainder, sin, sin_branchless};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
@@ -104,7 +104,8 @@ impl Wind {
         let [one, other] = TURBULENCE_WAVES.map(f64::from);
         let at_origin = [y * one + z * other, z * one + x * other, x * one + y * other];
         // Reduced modulo 2π in f64, because the SIMD kernels compute in f32.
-        let phase_of = |rate: f64, start: f64| ((t * rate + phase * 4.8 + start) % turn) as f32;
+        let phase_of =
+            |rate: f64, start: f64| remainder(t * rate + phase * 4.8 + start, turn) as f32;
         let phase = [(0, 2.9), (1, 3.7), (2, 4.3)].map(|(k, rate)| phase_of(rate, at_origin[k]));
         WindSample { mean, turbulence: self.turbulence * speed, phase }
     }

@@ -50,6 +50,8 @@ const answers = {
   save: answer(() => cloth.save()),
   restore: answer(() => Cloth.restore(new Uint8Array(100))),
   duplicate: answer(() => cloth.duplicate()),
+  sew: answer(() => cloth.sew([[0, 23]])),
+  skin: answer(() => cloth.skin({ positions: [0, 0, 0, 0.1, 0, 0, 0, -0.1, 0], indices: [0, 1, 2] }).free()),
   surface: answer(() => (cloth.settings = { selfCollision: true })),
   made: answer(() => Cloth.grid({ settings: { selfCollision: true } })),
   convex: answer(() => cloth.addCollider({ shape: "convex", positions: points })),

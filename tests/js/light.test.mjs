@@ -35,6 +35,8 @@ test("what the light module lacks throws an error that names it and changes noth
     save: `\`save\` ${where}`,
     restore: `\`Cloth.restore\` ${where}`,
     duplicate: `\`duplicate\` ${where}`,
+    sew: `\`sew\` ${where}`,
+    skin: `\`skin\` ${where}`,
     surface: `surface self-collision ${where}`,
     made: `surface self-collision ${where}`,
     convex: facets,
@@ -47,7 +49,7 @@ test("what the light module lacks throws an error that names it and changes noth
 });
 
 test("the full module has what the light one lacks", () => {
-  for (const part of ["cut", "save", "duplicate", "surface", "made", "convex", "mesh", "heightfield", "layer"]) {
+  for (const part of ["cut", "save", "duplicate", "sew", "skin", "surface", "made", "convex", "mesh", "heightfield", "layer"]) {
     assert.equal(full.answers[part], "done", part);
   }
 });

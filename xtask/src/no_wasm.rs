@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::failure::{During, Failure, Result};
-use crate::{files, tools};
+use crate::{files, function_order, tools};
 
 /// The wasm features that wasm2js can translate.
 const FEATURES: [&str; 3] = ["--mvp-features", "--enable-bulk-memory", "--enable-mutable-globals"];
@@ -56,13 +56,16 @@ pub fn convert(module: &Path, work: &Path) -> Result<PathBuf> {
     let read = |path: &Path| std::fs::read(path).during(|| format!("reading {}", path.display()));
     let mut input = read(module)?;
     input.extend_from_slice(include_bytes!("no_wasm.rs"));
+    input.extend_from_slice(include_bytes!("function_order.rs"));
+    input.extend_from_slice(include_bytes!("similar_order.rs"));
     input.extend(read(&tools.join(".installed-lock.json"))?);
     if small.is_file() && std::fs::read(&inputs).is_ok_and(|bytes| bytes == input) {
         return Ok(small);
     }
     std::fs::remove_file(&inputs).ok(); // it may be missing
     tools::to_javascript(module, &code, &[&FEATURES[..], &OPTIMIZED].concat())?;
-    files::write(&code, &shorten_constants(&replace_parts(&files::read(&code)?)?))?;
+    let parts = shorten_constants(&replace_parts(&files::read(&code)?)?);
+    files::write(&code, &function_order::in_script(&parts)?)?;
     tools::minify(&code, &small, "--minify")?;
     std::fs::write(&inputs, input).during(|| format!("writing {}", inputs.display()))?;
     Ok(small)

@@ -7,6 +7,7 @@
  * `Error` that names them:
  *
  * - `cut`, `save`, `Cloth.restore` and `duplicate`;
+ * - `sew` and `skin`;
  * - `selfCollision: true`; `"particles"` works;
  * - colliders of the shapes `"convex"`, `"mesh"` and `"heightfield"`, `Collider.update` and
  *   `collideWith`.

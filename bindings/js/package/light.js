@@ -1,5 +1,5 @@
-// Entry point `muslin/light`: the package with a smaller module, which lacks cuts, saves,
-// self-collision of the surface, and convex, mesh and heightfield colliders.
+// Entry point `muslin/light`: the package with a smaller module, which lacks cuts, saves, sewing,
+// skins, self-collision of the surface, and convex, mesh and heightfield colliders.
 
 import { addressOf, hasSimd, load } from "./load.js";
 

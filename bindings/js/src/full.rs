@@ -1,4 +1,5 @@
-//! What only the full module has: cuts, saves, and colliders whose vertices move.
+//! What only the full module has, beside `skins`: cuts, saves, sewing, and colliders whose vertices
+//! move.
 //!
 //! `light.rs` has the same methods for `muslin/light`; there they throw.
 
@@ -6,7 +7,7 @@ use crate::RawCloth;
 use crate::create::reserve;
 use crate::error::{Result, to_js_error};
 use crate::packing::{self, Reader};
-use muslin::{Cloth, Collider};
+use muslin::{Cloth, Collider, SewDesc, SewKind};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
@@ -37,6 +38,19 @@ impl RawCloth {
         let mut blade = Reader::new(blade);
         let (from, to, sweep) = (blade.vector(), blade.vector(), blade.vector());
         self.cloth.cut(from, to, sweep).map_err(to_js_error)
+    }
+
+    /// Sews pairs of particles together; `pairs` has two particles per pair.
+    pub fn sew(
+        &mut self,
+        pairs: &[u32],
+        speed: f32,
+        is_stitch: bool,
+        tear_force: f32,
+    ) -> Result<()> {
+        let kind = if is_stitch { SewKind::Stitch } else { SewKind::Weld };
+        let desc = SewDesc { speed, kind, tear_force };
+        self.cloth.sew(pairs.as_chunks().0, &desc).map_err(to_js_error)
     }
 
     /// Gives a mesh collider new vertices, x y z x y z … [m].

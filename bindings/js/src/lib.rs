@@ -28,7 +28,7 @@ mod particles;
 mod pins;
 mod read;
 mod settings;
-mod sewing;
+#[cfg_attr(not(feature = "full"), path = "no_skins.rs")]
 mod skins;
 mod tear;
 mod time;

@@ -29,6 +29,17 @@ impl RawCloth {
     }
 
     /// Throws.
+    pub fn sew(
+        &mut self,
+        _pairs: &[u32],
+        _speed: f32,
+        _is_stitch: bool,
+        _tear_force: f32,
+    ) -> Result<()> {
+        Err(missing("`sew`"))
+    }
+
+    /// Throws.
     pub fn update_collider(&mut self, _collider: u32, _positions: &[f32]) -> Result<()> {
         Err(missing("`Collider.update`"))
     }

@@ -14,7 +14,6 @@
 use crate::mesh::NONE;
 use crate::mesh::intake::remove_degenerate::is_degenerate;
 use glam::{DVec3, Vec3};
-use std::collections::HashMap;
 
 /// For each vertex the vertex it is welded to, which may be itself. A `distance` [m] of 0 welds
 /// equal positions; a negative one welds nothing.
@@ -85,17 +84,32 @@ impl VertexNeighbors {
     }
 }
 
-/// The kept vertices in a hash grid with cells of twice the distance; the vertices of a cell form a
-/// linked list.
+/// The kept vertices in a hash grid with cells of twice the distance; the vertices of the cells that
+/// share a bucket form a linked list.
+///
+/// It has its own buckets: the hash function of the standard library would make the wasm modules 1 %
+/// larger.
 struct KeptVertices {
     distance: f64,
-    head: HashMap<[i64; 3], u32>,
+    /// The cell of each kept vertex.
+    cells: Vec<[i64; 3]>,
+    /// The last kept vertex of each bucket; a power of two of them.
+    heads: Vec<u32>,
     next: Vec<u32>,
 }
 
 impl KeptVertices {
     fn new(distance: f64, count: usize) -> Self {
-        Self { distance, head: HashMap::with_capacity(count), next: vec![NONE; count] }
+        let heads = vec![NONE; (2 * count).next_power_of_two()];
+        Self { distance, cells: vec![[0; 3]; count], heads, next: vec![NONE; count] }
+    }
+
+    /// The bucket of a cell.
+    fn bucket(&self, cell: [i64; 3]) -> usize {
+        let hash = cell.into_iter().fold(0, |hash: u64, index| {
+            (hash ^ hash >> 32 ^ index as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        });
+        (hash >> 32) as usize & (self.heads.len() - 1)
     }
 
     /// Position in units of a cell. With distance 0 every position is its own cell.
@@ -113,9 +127,10 @@ impl KeptVertices {
     }
 
     fn insert(&mut self, vertex: u32, at: DVec3) {
-        let head = self.head.entry(self.cell(at)).or_insert(NONE);
-        self.next[vertex as usize] = *head;
-        *head = vertex;
+        let cell = self.cell(at);
+        let bucket = self.bucket(cell);
+        self.cells[vertex as usize] = cell;
+        self.next[vertex as usize] = core::mem::replace(&mut self.heads[bucket], vertex);
     }
 
     /// All kept vertices that may be within the distance: those of its cell and of the neighbouring
@@ -132,8 +147,9 @@ impl KeptVertices {
                 }
             }
             let some = |at: u32| (at != NONE).then_some(at);
-            let head = self.head.get(&other).copied().unwrap_or(NONE);
+            let head = self.heads[self.bucket(other)];
             core::iter::successors(some(head), move |at| some(self.next[*at as usize]))
+                .filter(move |at| self.cells[*at as usize] == other)
         })
     }
 }

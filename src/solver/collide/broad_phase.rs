@@ -21,7 +21,7 @@ use crate::solver::collide::contact_distance::{
 };
 use crate::solver::collide::long_triangles::longest_edge_squared;
 use crate::solver::collide::mid_phase::{CandidateRange, Earlier, PairSearch};
-use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds};
+use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds, of_deforming};
 use crate::solver::collide::particle_bounds;
 use crate::solver::collide::particle_motions::{MotionBound, ParticleMotions, carry_along};
 use crate::solver::world::World;
@@ -128,10 +128,11 @@ fn has_particle_moved(world: &mut World, limit: f32, moment: f32) -> bool {
     let mut has_moved = false;
     let nearby = &mut world.scratch.contacts.nearby;
     let mut predicted = &nearby.positions_at_rebuild;
-    if !nearby.displacements.is_empty() {
+    let displacements = of_deforming(&nearby.displacements);
+    if !displacements.is_empty() {
         let since = moment - nearby.moment_of_rebuild;
         nearby.predicted.copy_from(&nearby.positions_at_rebuild);
-        for (i, displacement) in nearby.displacements.iter().enumerate() {
+        for (i, displacement) in displacements.iter().enumerate() {
             nearby.predicted.add(i, *displacement * since);
         }
         predicted = &nearby.predicted;
@@ -158,7 +159,7 @@ fn predict_moved(world: &mut World, margin: f32, [moment, length]: [f32; 2]) -> 
     let shares = [max(1.0 - moment, 0.0), length];
     let (scratch, x) = (&mut world.scratch, &world.particles.x);
     let nearby = &mut scratch.contacts.nearby;
-    if nearby.displacements.is_empty() {
+    if of_deforming(&nearby.displacements).is_empty() {
         return false;
     }
     let since = moment - nearby.moment_of_rebuild;
@@ -190,7 +191,7 @@ fn predict_moved(world: &mut World, margin: f32, [moment, length]: [f32; 2]) -> 
         x,
         predicted: &scratch.predicted,
         displacement: &scratch.displacement,
-        displacements: &nearby.displacements,
+        displacements: of_deforming(&nearby.displacements),
         shares,
     };
     for (entry, body) in nearby.entries.iter().zip(world.colliders.iter()) {
@@ -241,7 +242,7 @@ fn rebuild(world: &mut World, margin: f32, [moment, length]: [f32; 2], is_partia
         x,
         predicted: &scratch.predicted,
         displacement: &scratch.displacement,
-        displacements: &nearby.displacements,
+        displacements: of_deforming(&nearby.displacements),
         shares,
     };
     let since = moment - nearby.moment_of_rebuild;

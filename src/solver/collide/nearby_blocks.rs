@@ -104,6 +104,13 @@ pub(super) struct Neighbours<'a> {
     pub candidates: Candidates<'a>,
 }
 
+/// Returns a list that is filled only beside colliders that deform; without the feature
+/// `facet-colliders` an empty constant, so that the compiler removes what handles it.
+#[inline]
+pub(super) fn of_deforming<T>(list: &[T]) -> &[T] {
+    if cfg!(feature = "facet-colliders") { list } else { &[] }
+}
+
 impl NearbyBlocks {
     /// Allocates for `bodies` colliders, `particles` particles and `triangles` triangles, and
     /// invalidates the current blocks.

@@ -83,11 +83,7 @@ fn add_surface_wind(world: &mut World, gravity: Vec3) {
     match world.maps.get(Map::Drag) {
         Some(scales) => sum_painted(input, pressure, scales, force),
         None => sum_in_bands(threads, input, force, |band, force| {
-            if pressure.lift > 0.0 {
-                sum_drag_and_lift(level, input, DragAndLift(pressure), band, force);
-            } else {
-                sum_drag(level, input, pressure, band, force);
-            }
+            sum_pressure(level, input, pressure, band, force);
         }),
     }
     threads.parallel_for(
@@ -133,20 +129,10 @@ fn subtract_velocity_lanes(
 }
 
 vectored! {
-    /// Adds the drag of each triangle to its corners.
-    fn sum_drag(
+    /// Adds the drag and the lift of each triangle to its corners.
+    fn sum_pressure(
         input: SumInput<'_>,
         pressure: Pressure,
-        band: RowBand,
-        force: [&mut [f32]; 3],
-    ) = triangles::sum, Avx2, triangles::sum_scalar
-}
-
-vectored! {
-    /// Adds the drag and the lift of each triangle to its corners.
-    fn sum_drag_and_lift(
-        input: SumInput<'_>,
-        pressure: DragAndLift,
         band: RowBand,
         force: [&mut [f32]; 3],
     ) = triangles::sum, Avx2, triangles::sum_scalar
@@ -161,7 +147,7 @@ fn sum_painted(input: SumInput<'_>, pressure: Pressure, scales: &[f32], out: &mu
         let painted = Pressure { drag: pressure.drag * mean(scales, corners), ..pressure };
         let [a, b, c] = *areas;
         let (x, air) = (of(input.x), of(input.attribute));
-        let force = painted.force_on::<Scalar, true>(Scalar, x, air, a + b + c);
+        let force = painted.force_on(Scalar, x, air, a + b + c);
         for (i, area) in corners.iter().zip(areas) {
             out.add(*i as usize, Vec3::from(force) * *area);
         }
@@ -195,7 +181,7 @@ struct Pressure {
 impl Pressure {
     /// Force on a triangle with corners `a`, `b`, `c` and relative wind `air` at these corners.
     #[inline(always)]
-    fn force_on<S: Simd, const LIFT: bool>(
+    fn force_on<S: Simd>(
         self,
         s: S,
         [a, b, c]: [LaneVector<S>; 3],
@@ -221,7 +207,7 @@ impl Pressure {
         let max_mass_flux = s.splat(self.max_mass_flux);
         let push = Float::min(s.splat(self.drag) * head_on, max_mass_flux) * facing * stretch;
         let mut force = [nx * push, ny * push, nz * push];
-        if LIFT {
+        if self.lift > 0.0 {
             let speed2 = ux * ux + uy * uy + uz * uz;
             let sign = s.select(zero - facing, s.splat(-1.0), s.splat(1.0));
             let rate = Float::min(s.splat(self.lift) * head_on, max_mass_flux) * sign * stretch;
@@ -245,25 +231,6 @@ impl TriangleContribution for Pressure {
         air: [LaneVector<S>; 3],
         rest_area: S::F,
     ) -> LaneVector<S> {
-        self.force_on::<S, false>(s, x, air, rest_area)
-    }
-}
-
-/// Pressure with drag and lift.
-#[derive(Clone, Copy)]
-struct DragAndLift(Pressure);
-
-impl TriangleContribution for DragAndLift {
-    const WEIGHTED_BY_AREA: bool = true;
-
-    #[inline(always)]
-    fn evaluate<S: Simd>(
-        self,
-        s: S,
-        x: [LaneVector<S>; 3],
-        air: [LaneVector<S>; 3],
-        rest_area: S::F,
-    ) -> LaneVector<S> {
-        self.0.force_on::<S, true>(s, x, air, rest_area)
+        self.force_on(s, x, air, rest_area)
     }
 }

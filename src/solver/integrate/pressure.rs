@@ -76,7 +76,7 @@ fn find_closed_pieces(world: &mut World) {
     let piece = |particle: u32| label[triangle_of(mesh.corner_of[particle as usize])];
     let mut has_opened = true;
     while core::mem::take(&mut has_opened) {
-        for pair in sewing.pairs.iter().filter(|pair| pair.is_closed()) {
+        for pair in sewing.pairs().iter().filter(|pair| pair.is_closed()) {
             let [a, b] = pair.particles.map(piece);
             for (own, other) in [(a as usize, b as usize), (b as usize, a as usize)] {
                 if outward[own] == SEWN && outward[other] == 0.0 {

@@ -34,7 +34,9 @@ const PARTED_GAPS: f32 = 2.0;
 
 /// Starts a tick: the pulls of the last one are forgotten.
 pub(crate) fn begin_tick(world: &mut World) {
-    world.sewing.pulls.fill(Vec3::ZERO);
+    if !world.sewing.is_empty() {
+        world.sewing.pulls.fill(Vec3::ZERO);
+    }
 }
 
 /// Shortens the pairs that are drawn together, and closes those of length 0.
@@ -230,7 +232,7 @@ fn tear_stitches(world: &mut World) {
 #[inline(never)]
 pub(crate) fn report(world: &mut World) {
     let x = &world.particles.x;
-    let mut open = world.sewing.pairs.iter().filter(|pair| {
+    let mut open = world.sewing.pairs().iter().filter(|pair| {
         let [a, b] = pair.particles.map(|particle| x.get(particle as usize));
         pair.is_closed() && a != b
     });
@@ -251,7 +253,7 @@ pub(crate) fn report(world: &mut World) {
 pub(crate) fn roll_back_partners(world: &mut World) -> bool {
     let (x, targets) = (&mut world.particles.x, &world.scratch.rollback.positions);
     let mut has_moved = false;
-    for pair in world.sewing.pairs.iter().filter(|pair| pair.is_closed()) {
+    for pair in world.sewing.pairs().iter().filter(|pair| pair.is_closed()) {
         let [a, b] = pair.particles.map(|particle| particle as usize);
         if x.get(a) != x.get(b) {
             for end in [a, b].into_iter().filter(|end| world.particles.w[*end] > 0.0) {
@@ -268,7 +270,7 @@ pub(crate) fn roll_back_partners(world: &mut World) -> bool {
 pub(crate) fn roll_back_open(world: &mut World, start: &[Float4]) -> bool {
     let (x, w) = (&mut world.particles.x, &world.particles.w);
     let mut has_moved = false;
-    for pair in world.sewing.pairs.iter().filter(|pair| pair.is_closed()) {
+    for pair in world.sewing.pairs().iter().filter(|pair| pair.is_closed()) {
         let [a, b] = pair.particles.map(|particle| particle as usize);
         if x.get(a) != x.get(b) {
             for end in [a, b].into_iter().filter(|end| w[*end] > 0.0) {
@@ -300,7 +302,7 @@ pub(crate) fn group_sewn_pieces(world: &mut World) -> bool {
 #[inline(never)]
 pub(crate) fn join_sewn_pieces(world: &mut World) {
     let (labels, mesh) = (&world.scratch.pieces, &world.mesh);
-    for pair in world.sewing.pairs.iter().filter(|pair| pair.is_active()) {
+    for pair in world.sewing.pairs().iter().filter(|pair| pair.is_active()) {
         let corners = pair.particles.map(|particle| mesh.corner_of[particle as usize]);
         if !corners.contains(&NONE) {
             let [a, b] = corners.map(|corner| labels.label[triangle_of(corner)]);

@@ -33,15 +33,9 @@ pub(crate) trait TriangleContribution: Copy {
         attribute: [LaneVector<S>; 3],
         rest_area: S::F,
     ) -> LaneVector<S>;
-
-    /// The factor for a corner with this share of the rest area [m²].
-    #[inline(always)]
-    fn corner_share(area: f32) -> f32 {
-        corner_share(area, Self::WEIGHTED_BY_AREA)
-    }
 }
 
-/// As [`TriangleContribution::corner_share`], for functions that are compiled once for all types.
+/// The factor for a corner with this share of the rest area [m²].
 #[inline(always)]
 pub(crate) fn corner_share(area: f32, is_weighted_by_area: bool) -> f32 {
     if is_weighted_by_area { area } else { 1.0 }
@@ -84,7 +78,10 @@ pub(crate) fn rest_areas_of(input: SumInput<'_>, triangles: &[u32]) -> LaneArray
 }
 
 /// Evaluates the contributions of up to eight triangles, given by their corners and rest areas.
-#[inline(always)]
+///
+/// Not inlined in wasm, which has one instruction set: two callers share it.
+#[cfg_attr(target_arch = "wasm32", inline(never))]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 pub(crate) fn evaluate_gathered<S: Simd, C: TriangleContribution>(
     s: S,
     input: SumInput<'_>,

@@ -208,33 +208,45 @@ pub(crate) fn sum<S: Simd, C: TriangleContribution>(
         } else {
             below.clear();
         }
-        let views = [above.view(), below.view()];
-        let count = if number < band.first { 0 } else { columns };
-        for start in (0..count).step_by(S::LANES) {
-            // The last chunk overlaps with particles that are done, and gives them the same sums.
-            let first = start.min(columns - S::LANES);
-            let at = (number - band.first) * columns + first;
-            if !(above.is_torn_at(first) || below.is_torn_at(first)) {
-                gather_chunk::<S, C, false>(s, row, first, &views, at, out);
-            } else if !(above.is_divided || below.is_divided) {
-                gather_chunk::<S, C, true>(s, row, first, &views, at, out);
-            } else {
-                (0..S::LANES).for_each(|lane| {
-                    let at = at + lane;
-                    let is_weighted = C::WEIGHTED_BY_AREA;
-                    gather_searching(
-                        input,
-                        row,
-                        first + lane,
-                        is_weighted,
-                        [above, below],
-                        at,
-                        out,
-                    );
-                });
-            }
+        if number >= band.first {
+            let at = (number - band.first) * columns;
+            gather_row(s, input, row, C::WEIGHTED_BY_AREA, [above, below], at, out);
         }
         (above, below) = (below, above);
+    }
+}
+
+/// Sums the contributions around a row of particles, and stores the sums from `at` on.
+///
+/// Not inlined in wasm, which has one instruction set: all contributions share it.
+#[cfg_attr(target_arch = "wasm32", inline(never))]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+fn gather_row<S: Simd>(
+    s: S,
+    input: SumInput<'_>,
+    row: CellRow<'_>,
+    is_weighted_by_area: bool,
+    [above, below]: [&CellRowBuffer<'_>; 2],
+    at: usize,
+    out: &mut [&mut [f32]; 3],
+) {
+    let columns = row.cells.columns;
+    let views = [above.view(), below.view()];
+    for start in (0..columns).step_by(S::LANES) {
+        // The last chunk overlaps with particles that are done, and gives them the same sums.
+        let first = start.min(columns - S::LANES);
+        let at = at + first;
+        if !(above.is_torn_at(first) || below.is_torn_at(first)) {
+            gather_chunk::<S, false>(s, row, first, is_weighted_by_area, &views, at, out);
+        } else if !(above.is_divided || below.is_divided) {
+            gather_chunk::<S, true>(s, row, first, is_weighted_by_area, &views, at, out);
+        } else {
+            (0..S::LANES).for_each(|lane| {
+                let (column, at) = (first + lane, at + lane);
+                let buffers = [above, below];
+                gather_searching(input, row, column, is_weighted_by_area, buffers, at, out);
+            });
+        }
     }
 }
 
@@ -371,16 +383,18 @@ fn scatter_torn(
 /// Sums the contributions around `S::LANES` particles from column `first` on, and stores the sums
 /// from `at` on. With `TORN`, corners that were split off are left out.
 #[inline(always)]
-fn gather_chunk<S: Simd, C: TriangleContribution, const TORN: bool>(
+fn gather_chunk<S: Simd, const TORN: bool>(
     s: S,
     row: CellRow<'_>,
     first: usize,
+    is_weighted_by_area: bool,
     views: &[CellRowView<'_>; 2],
     at: usize,
     out: &mut [&mut [f32]; 3],
 ) {
     let (area, zero) = (row.cells.corner_area, s.splat(0.0));
-    let (quarter, half) = (s.splat(C::corner_share(area)), s.splat(C::corner_share(2.0 * area)));
+    let share = |area: f32| s.splat(corner_share(area, is_weighted_by_area));
+    let (quarter, half) = (share(area), share(2.0 * area));
     // If the diagonal of the fourth cell falls, the diagonals of all four cells meet at this
     // particle.
     let meets =
