@@ -23,7 +23,7 @@ use super::hdr_target::HdrTarget;
 use super::light::{Light, Lights, linear};
 use super::mesh::{ClothSurface, Detail, Mesh};
 use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
-use super::shadow::ShadowMap;
+use super::shadow::{DepthProgram, ShadowMap};
 use super::sky_light::SkyLight;
 use super::solid::{Solid, Solids};
 use crate::camera::CameraView;
@@ -94,13 +94,14 @@ impl ReceiptRenderer {
             include_str!("shaders/sky_light.glsl"),
             include_str!("shaders/table.frag")
         );
+        let depths = DepthProgram::new(context)?;
         Ok(Self {
             context: context.clone(),
             lights: lights(),
             mesh: Mesh::new(context),
-            shadow: ShadowMap::new(context, SHADOW_SIZE)?,
-            depths: ShadowMap::new(context, DEPTH_SIZE)?,
-            sky: SkyLight::new(context)?,
+            shadow: ShadowMap::new(context, &depths, SHADOW_SIZE),
+            depths: ShadowMap::new(context, &depths, DEPTH_SIZE),
+            sky: SkyLight::new(context, &depths),
             ink: ink(context),
             paper: Program::from_source(context, include_str!("shaders/cloth.vert"), lit)?,
             ground: Program::from_source(context, include_str!("shaders/ground.vert"), ground)?,
