@@ -48,9 +48,9 @@ const DISC_FABRICS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
 /// not start late.
 const SETTLING_TICKS: u32 = 110;
 const SETTLING_WORK: u32 = 180_000;
-/// Iterations per substep in these ticks, which decide how long a page takes to start; the last of
-/// them have the iterations of the settings, so that the cloth does not start stretched.
-const SETTLING_ITERATIONS: u32 = 2;
+/// Substeps, and iterations in each, of the sheet in these ticks, which decide how long a page takes
+/// to start; the last of them have those of the settings, so that it does not start stretched.
+const SETTLING_STEPS: [u32; 2] = [2, 3];
 const FIRM_TICKS: u32 = 12;
 /// Factor of the wind in the gust before the first frame.
 const GUST: f32 = 1.9;
@@ -322,8 +322,16 @@ pub fn settle(
     let ticks = (SETTLING_WORK / particles).min(SETTLING_TICKS);
     let gust = ticks / 3;
     let firm = instance.cloths[0].settings().clone();
-    let iterations = firm.iterations.min(SETTLING_ITERATIONS);
-    instance.cloths[0].set_settings(muslin::Settings { iterations, ..firm.clone() })?;
+    // Flags would take no less: they limit the stretch more often.
+    if settings.scene == SceneKind::Sheet {
+        let [substeps, iterations] = SETTLING_STEPS;
+        let iterations = firm.iterations.min(iterations);
+        instance.cloths[0].set_settings(muslin::Settings {
+            substeps,
+            iterations,
+            ..firm.clone()
+        })?;
+    }
     instance.step(ticks - gust);
     let wind = instance.cloths[0].wind().clone();
     let factor = if reduced_motion { 1.0 } else { GUST };

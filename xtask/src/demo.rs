@@ -141,7 +141,7 @@ pub fn draw_share_pictures() -> Result {
 /// demo that draw it.
 const REVIEW_PICTURES: [(&str, &str); 19] = [
     ("first-load", "--scene sheet --frames 1"),
-    ("pulled", "--play yank --frames 34"),
+    ("pulled", "--play yank --frames 18"),
     ("torn", "--play tear"),
     ("cut", "--play cut"),
     ("behind", "--scene sheet --orbit 1.1,0"),
