@@ -239,7 +239,11 @@ function connectOverlays() {
     ask.setAttribute("aria-expanded", String(on));
   };
   ask.addEventListener("click", () => showHelp(help.classList.contains("gone")));
-  by("dismiss").addEventListener("click", () => showHelp(false));
+  by("dismiss").addEventListener("click", () => {
+    // Otherwise keys would go to a button that nobody sees.
+    if (document.activeElement === by("dismiss")) canvas.focus();
+    showHelp(false);
+  });
   help.addEventListener("touched", () => showHelp(false));
   showHelp(true);
 }
