@@ -48,8 +48,8 @@ const DISC_FABRICS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
 /// not start late.
 const SETTLING_TICKS: u32 = 110;
 const SETTLING_WORK: u32 = 180_000;
-/// Substeps, and iterations in each, of the sheet in these ticks, which decide how long a page takes
-/// to start; the last of them have those of the settings, so that it does not start stretched.
+/// Substeps, and iterations in each, of the sheet in these ticks, which decide how long a page
+/// takes to start; the last ones have those of the settings, so that it does not start stretched.
 const SETTLING_STEPS: [u32; 2] = [2, 3];
 const FIRM_TICKS: u32 = 12;
 /// Factor of the wind in the gust before the first frame.

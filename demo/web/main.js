@@ -241,7 +241,7 @@ function connectOverlays() {
   ask.addEventListener("click", () => showHelp(help.classList.contains("gone")));
   by("dismiss").addEventListener("click", () => {
     // Otherwise keys would go to a button that nobody sees.
-    if (document.activeElement === by("dismiss")) canvas.focus();
+    if (document.activeElement === by("dismiss")) canvas.focus({ focusVisible: false });
     showHelp(false);
   });
   help.addEventListener("touched", () => showHelp(false));

@@ -123,8 +123,8 @@ mod tests {
 
     const SIZE: [u32; 2] = [6, 9];
 
-    /// A sheet that lies in the plane of x and y, with its front to z, and is folded by `angle` [rad]
-    /// to the back between the fourth and the fifth row of cells.
+    /// A sheet that lies in the plane of x and y, with its front to z, and is folded by `angle`
+    /// [rad] to the back between the fourth and the fifth row of cells.
     fn folded(angle: f32) -> Vec<Vec3> {
         let [columns, rows] = SIZE;
         let below = Vec3::new(0.0, -angle.cos(), -angle.sin());
