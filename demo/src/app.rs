@@ -43,6 +43,8 @@ pub struct App {
     pointers: Pointers,
     /// Whether the key for the blade is held.
     blade: bool,
+    /// Direction that held keys walk a person in: right, and away from the camera.
+    stride: Vec2,
     afterglow: Afterglow,
     trail_points: Vec<TrailPoint>,
     screen: Screen,
@@ -84,6 +86,7 @@ impl App {
             settings,
             pointers: Pointers::default(),
             blade: false,
+            stride: Vec2::ZERO,
             afterglow: Afterglow::default(),
             trail_points: Vec::new(),
             screen: Screen { size: Vec2::new(1280.0, 720.0) },

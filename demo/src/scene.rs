@@ -48,6 +48,10 @@ const DISC_FABRICS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
 /// not start late.
 const SETTLING_TICKS: u32 = 110;
 const SETTLING_WORK: u32 = 180_000;
+/// Substeps, and iterations in each, of the sheet in these ticks, which decide how long a page
+/// takes to start; the last ones have those of the settings, so that it does not start stretched.
+const SETTLING_STEPS: [u32; 2] = [2, 3];
+const FIRM_TICKS: u32 = 12;
 /// Factor of the wind in the gust before the first frame.
 const GUST: f32 = 1.9;
 /// Most particles of a sheet that keeps from itself in real time, also on a page, and the distance
@@ -316,11 +320,25 @@ pub fn settle(
     drop_self_collision(instance, settings)?;
     let particles = instance.cloths[0].particle_count().max(1);
     let ticks = (SETTLING_WORK / particles).min(SETTLING_TICKS);
-    let gust = if reduced_motion { 0 } else { ticks / 3 };
+    let gust = ticks / 3;
+    let firm = instance.cloths[0].settings().clone();
+    // Flags would take no less: they limit the stretch more often.
+    if settings.scene == SceneKind::Sheet {
+        let [substeps, iterations] = SETTLING_STEPS;
+        let iterations = firm.iterations.min(iterations);
+        instance.cloths[0].set_settings(muslin::Settings {
+            substeps,
+            iterations,
+            ..firm.clone()
+        })?;
+    }
     instance.step(ticks - gust);
     let wind = instance.cloths[0].wind().clone();
-    instance.cloths[0].set_wind(Wind { velocity: wind.velocity * GUST, ..wind.clone() })?;
-    instance.step(gust);
+    let factor = if reduced_motion { 1.0 } else { GUST };
+    instance.cloths[0].set_wind(Wind { velocity: wind.velocity * factor, ..wind.clone() })?;
+    instance.step(gust.saturating_sub(FIRM_TICKS));
+    instance.cloths[0].set_settings(firm)?;
+    instance.step(gust.min(FIRM_TICKS));
     instance.cloths[0].set_wind(wind)?;
     instance.cloths[0].set_settings(live)
 }
@@ -423,6 +441,25 @@ mod tests {
                     assert!(off.fold(0.0, f32::max) < 2.0, "{scene:?} is off the stage");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_ticks_before_the_first_frame_leave_no_more_stretch_than_later_ones() {
+        for scene in [SceneKind::Sheet, SceneKind::Flag] {
+            let settings = Settings { scene, ..Settings::default() };
+            let mut instance = build(&settings, false).unwrap();
+            let live = instance.cloths[0].settings().clone();
+            settle(&mut instance, &settings, false).unwrap();
+            assert_eq!(instance.cloths[0].settings(), &live);
+            let stretch = |instance: &SceneInstance| instance.cloths[0].stats().max_stretch;
+            let first = stretch(&instance);
+            let later = (0..60).map(|_| {
+                instance.step(1);
+                stretch(&instance)
+            });
+            let most = later.fold(0.0, f32::max);
+            assert!(first < 1.3 * most, "{scene:?}: {first}, later at most {most}");
         }
     }
 

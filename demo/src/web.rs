@@ -46,9 +46,17 @@ pub(crate) fn context_from_webgl(gl: web_sys::WebGl2RenderingContext) -> Result<
 #[wasm_bindgen]
 impl Demo {
     /// Starts with the saved settings; with the defaults if there are none or they are corrupt.
+    /// Then come the `choices` of a link: names of controls with numbers of options, such as
+    /// `scene=4&fabric=2`.
     #[wasm_bindgen(constructor)]
-    pub fn new(kept: Option<String>) -> Result<Demo, JsError> {
-        let settings = kept.and_then(|text| Settings::from_json(&text).ok()).unwrap_or_default();
+    pub fn new(kept: Option<String>, choices: &str) -> Result<Demo, JsError> {
+        let mut settings =
+            kept.and_then(|text| Settings::from_json(&text).ok()).unwrap_or_default();
+        for (name, option) in choices.split('&').filter_map(|choice| choice.split_once('=')) {
+            if let (Some(control), Ok(option)) = (controls::find_control(name), option.parse()) {
+                control.set(&mut settings, option);
+            }
+        }
         let app = App::new(settings, || now() * 1.0e-3).map_err(js_error)?;
         Ok(Self { app, renderer: None })
     }
@@ -162,7 +170,13 @@ impl Demo {
 
     /// Returns the position of the walker [m]; nothing in scenes without one.
     pub fn walker(&self) -> Box<[f32]> {
-        self.app.walker().map_or_else(Box::default, |at| Box::new(at.to_array()))
+        self.app.walker().iter().flat_map(|at| at.to_array()).collect()
+    }
+
+    /// Walks the person to the right and away from the camera while these are not both zero;
+    /// returns whether there is a person.
+    pub fn walk(&mut self, right: f32, away: f32) -> bool {
+        self.app.walk(Vec2::new(right, away))
     }
 
     /// Sets whether the key for the blade is held.

@@ -49,10 +49,10 @@ function run(demo) {
   const refresh = () => {
     updatePanel();
     showPhoto();
+    for (const part of document.querySelectorAll("#help .walk")) part.hidden = demo.walker().length === 0;
     updateInsets();
   };
   const updateInsets = connectInsets(demo);
-  openLink(demo);
   refresh();
   // The demo has corrected invalid values; this corrects them in the storage too.
   saveNow();
@@ -101,15 +101,18 @@ function run(demo) {
   setPageState("running");
 }
 
-/** Applies the scene of the page, and choices of the address, such as `?scene=curtain&fabric=denim`. */
-function openLink(demo) {
+/**
+ * Returns the scene of the page and the choices of the address, such as `?scene=curtain&fabric=denim`,
+ * with numbers of options.
+ */
+function linkedChoices() {
   const wanted = new URLSearchParams(location.search);
   const { scene } = document.documentElement.dataset;
   if (scene && !wanted.has("scene")) wanted.set("scene", scene);
-  for (const { name, options = [] } of JSON.parse(Demo.controls())) {
-    const option = options.findIndex((label) => label.toLowerCase() === wanted.get(name));
-    if (option >= 0) demo.set(name, option);
-  }
+  const choice = ({ name, options = [] }) =>
+    [name, options.findIndex((label) => label.toLowerCase() === wanted.get(name))];
+  const choices = JSON.parse(Demo.controls()).map(choice).filter(([, option]) => option >= 0);
+  return choices.map(([name, option]) => `${name}=${option}`).join("&");
 }
 
 function showReadout(stats) {
@@ -139,7 +142,35 @@ function showStages(stages) {
   });
 }
 
+/** Directions of the arrows that walk a person: right, and away from the camera. */
+const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+/**
+ * Walks the person of the scene, if it has one, while arrows are held and no control has the focus.
+ * Returns a function that tells whether a pressed key does so. With Shift they orbit.
+ */
+function listenToWalk(demo) {
+  const held = new Set();
+  const walk = () => demo.walk(...[0, 1].map((i) => [...held].reduce((sum, key) => sum + WAYS[key][i], 0)));
+  const stop = () => {
+    held.clear();
+    walk();
+  };
+  addEventListener("blur", stop);
+  addEventListener("keyup", (event) => {
+    if (held.delete(event.key)) walk();
+  });
+  return (event) => {
+    if (!WAYS[event.key] || event.shiftKey || !isFree(event, canvas)) return false;
+    held.add(event.key);
+    if (walk()) return true;
+    held.clear();
+    return false;
+  };
+}
+
 function listenToKeys(demo, changed) {
+  const walks = listenToWalk(demo);
   const updateBlade = (event) => {
     demo.holdBlade(event.shiftKey === true);
     canvas.style.cursor = demo.cursor();
@@ -149,6 +180,10 @@ function listenToKeys(demo, changed) {
   addEventListener("keydown", (event) => {
     if (event.key === "Shift") updateBlade(event);
     if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (walks(event)) {
+      event.preventDefault();
+      return;
+    }
     if (moveCamera(event, canvas, demo)) return;
     if (event.key === "?" || event.key === "h") {
       by("ask").click();
@@ -204,7 +239,11 @@ function connectOverlays() {
     ask.setAttribute("aria-expanded", String(on));
   };
   ask.addEventListener("click", () => showHelp(help.classList.contains("gone")));
-  by("dismiss").addEventListener("click", () => showHelp(false));
+  by("dismiss").addEventListener("click", () => {
+    // Otherwise keys would go to a button that nobody sees.
+    if (document.activeElement === by("dismiss")) canvas.focus({ focusVisible: false });
+    showHelp(false);
+  });
   help.addEventListener("touched", () => showHelp(false));
   showHelp(true);
 }
@@ -213,7 +252,7 @@ try {
   const gl = context(canvas);
   if (gl) {
     await init({ module_or_path: new URL("./muslin_demo_bg.wasm", import.meta.url) });
-    const demo = new Demo(readSettings());
+    const demo = new Demo(readSettings(), linkedChoices());
     demo.attach(gl);
     run(demo);
   } else {

@@ -294,3 +294,36 @@ test("the keyboard grabs the cloth, pulls it and lets it go", async () => {
   assert.deepEqual(complaints, []);
   await context.close();
 });
+
+test("arrow keys walk the person through the doorway, and the instructions say so", async () => {
+  const { context, page, complaints } = await visitRunning({ path: "?scene=doorway", reducedMotion: "reduce" });
+  const walker = () => page.evaluate(() => window.muslinDemo.walker());
+  const start = await walker();
+  assert.ok(start[2] > 0.8, `the person starts at ${start}`);
+  await page.keyboard.press("?");
+  const text = await page.locator("#help").innerText();
+  assert.match(text, /hold arrow keys to walk/);
+  await page.keyboard.press("Escape");
+  // One press is a step, also if no frame is drawn while it is held.
+  await page.keyboard.press("ArrowUp");
+  await waitUntil(page, walker, (at) => start[2] - at[2] > 0.2, "a short press is no step");
+  const eye = await cameraPosition(page);
+  await page.keyboard.down("ArrowUp");
+  await waitUntil(page, walker, (at) => at[2] < -0.6, "nobody walks through the curtain");
+  await page.keyboard.down("ArrowLeft");
+  await page.keyboard.up("ArrowUp");
+  await waitUntil(page, walker, (at) => at[0] < -0.3, "nobody walks to the left");
+  await page.keyboard.up("ArrowLeft");
+  assert.ok(distance(await cameraPosition(page), eye) < 0.02, "the arrows turned the camera");
+  await page.keyboard.press("Shift+ArrowLeft");
+  const turned = (at) => distance(at, eye) > 0.05;
+  await waitUntil(page, () => cameraPosition(page), turned, "Shift and an arrow do not orbit");
+  await page.locator("#control-scene input").first().check();
+  assert.equal(await page.locator("#help .walk:not([hidden])").count(), 0);
+  await page.locator("#stage").focus();
+  const before = await cameraPosition(page);
+  await page.keyboard.press("ArrowRight");
+  await waitUntil(page, () => cameraPosition(page), (at) => distance(at, before) > 0.05, "an arrow does not orbit the sheet");
+  assert.deepEqual(complaints, []);
+  await context.close();
+});

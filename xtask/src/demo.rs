@@ -137,6 +137,51 @@ pub fn draw_share_pictures() -> Result {
     Ok(())
 }
 
+/// The pictures by which a change of the demo is judged: the name of each, and the options of the
+/// demo that draw it.
+const REVIEW_PICTURES: [(&str, &str); 19] = [
+    ("first-load", "--scene sheet --frames 1"),
+    ("pulled", "--play yank --frames 18"),
+    ("torn", "--play tear"),
+    ("cut", "--play cut"),
+    ("behind", "--scene sheet --orbit 1.1,0"),
+    ("cotton", "--scene sheet --fabric 1"),
+    ("denim", "--scene sheet --fabric 2"),
+    ("nylon", "--scene sheet --fabric 3"),
+    ("curtain", "--scene curtain"),
+    ("discs", "--scene discs --frames 300"),
+    ("receipt-hung", "--scene tender"),
+    ("receipt-folded", "--scene tender --play letter"),
+    ("receipt-crumpled", "--scene tender --play crumple"),
+    ("flag", "--scene flag --fabric 3"),
+    ("ball", "--scene ball --fabric 1"),
+    ("figure", "--scene figure --fabric 1"),
+    ("glass", "--scene glass"),
+    ("doorway", "--scene doorway --fabric 1 --frames 170"),
+    ("storm", "--scene storm --fabric 3"),
+];
+
+/// Sizes of these pictures [px]: a desktop, a small laptop, a phone.
+const REVIEW_SIZES: [&str; 3] = ["1440x900", "1280x720", "390x844"];
+
+/// `cargo xtask review-pictures`: draws every scene at three sizes into a folder, to compare with
+/// those of another commit.
+pub fn draw_review_pictures(options: &[String]) -> Result {
+    let dir = match options {
+        [] => files::target().join("shots/review"),
+        [dir] if !dir.starts_with('-') => dir.into(),
+        _ => return Err(Failure::new("`cargo xtask review-pictures` takes only a folder")),
+    };
+    files::create_dir(&dir)?;
+    for (name, options) in REVIEW_PICTURES {
+        for size in REVIEW_SIZES {
+            let options: Vec<_> = options.split(' ').chain(["--size", size]).collect();
+            shoot(&dir.join(format!("{name}-{size}.png")), &options)?;
+        }
+    }
+    Ok(())
+}
+
 /// Draws a picture with `cargo xtask demo --shot` and checks it.
 pub fn shoot(file: &Path, options: &[&str]) -> Result {
     if file.exists() {

@@ -69,6 +69,7 @@ cargo xtask demo --web              build the demo as a page and serve it
   --no-open                         without opening a browser
 cargo xtask manual-pictures         draw the pictures of docs/manual with the demo
 cargo xtask share-pictures          draw the pictures of previews of links with the demo
+cargo xtask review-pictures [DIR]   draw all scenes of the demo at three sizes, to compare commits
 cargo xtask check                   format, lints of the library, unit tests and closed forms
 cargo xtask test [STEP…]            all default steps, or the steps that are named
   --all                             all steps, with dist, clean-root, site, engines, godot and
@@ -120,6 +121,7 @@ fn run(args: &[String]) -> Result {
         "demo" => demo::run(rest),
         "manual-pictures" => alone(chore, rest, demo::draw_manual_pictures),
         "share-pictures" => alone(chore, rest, demo::draw_share_pictures),
+        "review-pictures" => demo::draw_review_pictures(rest),
         "test" => test::run(rest),
         "step" => test::run_step(rest),
         "check" => test::check(rest),

@@ -217,6 +217,38 @@ fn the_walker_follows_the_mouse_through_the_curtain_and_a_finger_that_presses_th
 }
 
 #[test]
+fn arrow_keys_walk_the_person_as_seen_from_the_camera_and_a_short_press_is_a_step() {
+    let mut app = app();
+    app.camera().set_drift(false);
+    assert!(!app.walk(Vec2::X), "a scene without a person has one");
+    app.set("scene", SceneKind::ALL.iter().position(|s| *s == SceneKind::Doorway).unwrap() as f32)
+        .unwrap();
+    app.set_reduced_motion(true).unwrap();
+    let run = |app: &mut App| (0..120).for_each(|_| app.frame(1.0 / 60.0).unwrap());
+    run(&mut app);
+    let ahead = app.camera.view().forward().with_y(0.0).normalize();
+    // The mouse rests beside the walkway, and does not lead it back.
+    app.drag(0, Vec2::new(300.0, 700.0)).unwrap();
+    let start = app.walker().unwrap();
+    assert!(app.walk(Vec2::Y));
+    app.walk(Vec2::ZERO);
+    run(&mut app);
+    let step = (app.walker().unwrap() - start).dot(ahead);
+    assert!((step - walkway::STEP).abs() < 0.08, "a step of {step} m");
+    app.walk(Vec2::Y);
+    run(&mut app);
+    let far = app.walker().unwrap();
+    assert!((far - start).dot(ahead) > 1.5, "it walked from {start} to {far}");
+    app.walk(Vec2::ZERO);
+    run(&mut app);
+    let still = app.walker().unwrap();
+    run(&mut app);
+    assert!(app.walker().unwrap().distance(still) < 1.0e-3, "it walks on");
+    app.set_photo(true).unwrap();
+    assert!(!app.walk(Vec2::X));
+}
+
+#[test]
 fn in_the_photo_mode_time_stands_still_and_a_pointer_on_the_cloth_turns_the_camera() {
     let mut app = app();
     let at = app.particle_on_screen(820).unwrap();

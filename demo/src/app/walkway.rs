@@ -1,9 +1,10 @@
-//! Pointers that walk a person through the curtain of the doorway.
+//! Pointers and keys that walk a person through the curtain of the doorway.
 //!
 //! Method: the ray of a pixel meets the floor, and the walker is sent there; a ray that passes over
-//! the floor sends it to the far end.
+//! the floor sends it to the far end. While keys are held, the walker is sent ahead of where it is;
+//! after a short press it takes one step.
 //!
-//! Reads pointers and the camera; writes the target of the walker.
+//! Reads pointers, keys and the camera; writes the target of the walker.
 //!
 //! Invariant: scenes without a walker are not changed.
 
@@ -16,6 +17,8 @@ use crate::render::light::FLOOR;
 
 /// Largest distance along a ray that looks over the floor [m].
 const FAR: f32 = 20.0;
+/// How far ahead keys send the walker [m].
+pub(super) const STEP: f32 = 0.4;
 /// How far beside the walker, or beside where it may go, a press still means it [m].
 const REACH: f32 = 0.15;
 
@@ -25,8 +28,35 @@ impl App {
         self.scene.walker().map(Walker::position)
     }
 
-    /// Sends the walker to the pointer, if there are both.
+    /// Walks the person in a direction while it is not zero: x to the right, y away from the
+    /// camera. The mouse does not lead again until it moves. Returns whether there is a person;
+    /// there is none in a photo.
+    pub fn walk(&mut self, direction: Vec2) -> bool {
+        let is_there = self.scene.walker().is_some() && !self.is_photo && direction.is_finite();
+        self.stride = if is_there { direction.clamp_length_max(1.0) } else { Vec2::ZERO };
+        if self.stride != Vec2::ZERO {
+            self.pointers.clear_hover();
+            self.step_ahead();
+        }
+        is_there
+    }
+
+    /// Sends the walker one step ahead.
+    fn step_ahead(&mut self) {
+        let view = self.camera.view();
+        let ahead = view.forward().with_y(0.0).normalize_or(Vec3::NEG_Z);
+        let step = (view.right() * self.stride.x + ahead * self.stride.y) * STEP;
+        if let Some(walker) = self.scene.walker_mut() {
+            walker.walk_to(walker.position() + step);
+        }
+    }
+
+    /// Sends the walker where keys or the pointer lead it, if there are any.
     pub(super) fn send_walker(&mut self) {
+        if self.stride != Vec2::ZERO {
+            self.step_ahead();
+            return;
+        }
         let Some(at) = self.pointers.walker_target() else {
             return;
         };

@@ -21,7 +21,9 @@ use std::time::Instant;
 use glam::Vec2;
 use three_d::{CoreError, FrameInputGenerator, GUI, SurfaceSettings, WindowedContext};
 use winit::dpi::LogicalSize;
-use winit::event::{ElementState, Event, MouseButton, MouseScrollDelta, TouchPhase, WindowEvent};
+use winit::event::{
+    ElementState, Event, MouseButton, MouseScrollDelta, TouchPhase, VirtualKeyCode, WindowEvent,
+};
 use winit::event_loop::{ControlFlow, EventLoop};
 use winit::window::{CursorIcon, Window, WindowBuilder};
 
@@ -83,6 +85,7 @@ pub fn run(mut app: impl WindowApp + 'static) -> Result<(), NoWindow> {
         gui: GUI::new(&context),
         mouse: Vec2::ZERO,
         pressed: (f64::NEG_INFINITY, Vec2::ZERO),
+        arrows: [false; 4],
         last: clock(),
         app,
         context,
@@ -126,6 +129,8 @@ struct WindowState<A> {
     mouse: Vec2,
     /// Time [s] and position of the last press.
     pressed: (f64, Vec2),
+    /// Which of the keys left, right, down and up are held.
+    arrows: [bool; 4],
     last: f64,
     window: Window,
 }
@@ -201,7 +206,13 @@ impl<A: WindowApp> WindowState<A> {
                 }
             }
             WindowEvent::ModifiersChanged(keys) => self.app.shift(keys.shift()),
+            WindowEvent::KeyboardInput { input, .. } => {
+                self.arrow(input.virtual_keycode, input.state == ElementState::Pressed);
+                Ok(())
+            }
             WindowEvent::Focused(false) => {
+                self.arrows = [false; 4];
+                self.app.arrows(Vec2::ZERO);
                 let let_go = self.app.shift(false).and_then(|()| self.app.lift(LEFT_BUTTON));
                 let_go.and_then(|()| self.app.lift(RIGHT_BUTTON))
             }
@@ -219,6 +230,19 @@ impl<A: WindowApp> WindowState<A> {
             return Ok(());
         }
         self.app.key(key)
+    }
+
+    /// Handles a key that is pressed or released, if it is an arrow.
+    fn arrow(&mut self, key: Option<VirtualKeyCode>, is_down: bool) {
+        use VirtualKeyCode::{Down, Left, Right, Up};
+        let Some(i) = key.and_then(|key| [Left, Right, Down, Up].iter().position(|it| *it == key))
+        else {
+            return;
+        };
+        // The overlay uses them in its controls; a release always counts.
+        self.arrows[i] = is_down && !self.gui.context().egui_wants_keyboard_input();
+        let [left, right, down, up] = self.arrows.map(|held| f32::from(u8::from(held)));
+        self.app.arrows(Vec2::new(right - left, up - down));
     }
 
     /// Handles a press; a second press soon after the first and close to it is a double press.

@@ -131,7 +131,7 @@ impl Panel {
         if self.help {
             let help = Area::new(Id::new("help"))
                 .anchor(Align2::CENTER_BOTTOM, vec2(0.0, -24.0))
-                .show(ctx, |ui| glass().show(ui, |ui| self.instructions(ui)));
+                .show(ctx, |ui| glass().show(ui, |ui| self.instructions(ui, app)));
             self.rects.push(help.response.rect);
         }
     }
@@ -173,10 +173,14 @@ impl Panel {
         });
     }
 
-    fn instructions(&mut self, ui: &mut Ui) {
+    fn instructions(&mut self, ui: &mut Ui, app: &App) {
         let text = "Drag the cloth to pull it  ·  Drag the background to orbit  ·  Scroll to zoom  ·  Hold Shift and swipe to cut  ·  Toggle wind & tearing in the panel";
         ui.spacing_mut().interact_size.y = 28.0;
         ui.horizontal(|ui| {
+            if app.walker().is_some() {
+                let walk = "Move the mouse or hold arrow keys to walk  ·";
+                ui.label(RichText::new(walk).color(TEXT));
+            }
             ui.label(RichText::new(text).color(TEXT));
             if ui.add(Button::new("Got it").min_size(vec2(64.0, 28.0))).clicked() {
                 self.help = false;

@@ -52,6 +52,10 @@ pub trait WindowApp {
     fn pinch(&mut self, factor: f32);
     /// Handles the Shift key.
     fn shift(&mut self, held: bool) -> Result<()>;
+    /// Handles the arrow keys: right, and up or away, while they are held.
+    fn arrows(&mut self, held: Vec2) {
+        let _ = held;
+    }
     /// Handles a typed key.
     fn key(&mut self, key: char) -> Result<()>;
     /// Returns the shape of the mouse cursor.
@@ -152,6 +156,11 @@ impl WindowApp for ClothWindow {
     fn shift(&mut self, held: bool) -> Result<()> {
         self.app.hold_blade(held);
         Ok(())
+    }
+
+    fn arrows(&mut self, held: Vec2) {
+        self.app.camera().note_input();
+        self.app.walk(held);
     }
 
     fn key(&mut self, key: char) -> Result<()> {

@@ -14,6 +14,9 @@
 
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, GridDesc, Result};
+use muslin_scenes::Sheet;
+
+use super::crease_map::CreaseMap;
 
 /// Half the distance over which the bend is measured to find its direction [cells].
 const DIRECTION_REACH: f32 = 3.0;
@@ -41,6 +44,8 @@ struct Crease {
 #[derive(Clone, Debug, Default)]
 pub struct Creases {
     lines: Vec<Crease>,
+    /// How the sheet is folded and was folded, for drawing.
+    pub(super) map: CreaseMap,
 }
 
 /// The cloth as its original grid, without the particles that tears have added.
@@ -51,6 +56,14 @@ struct GridSheet<'a> {
 }
 
 impl Creases {
+    /// Updates the crease map to the present state of a cloth. Only paper keeps the marks of folds.
+    pub(super) fn record(&mut self, cloth: &Cloth, sheet: Sheet, grid_size: [u32; 2]) {
+        if sheet != Sheet::Paper {
+            self.map.forget();
+        }
+        self.map.record(cloth.positions(), grid_size);
+    }
+
     /// Creases the bend at a particle; returns whether there is one.
     ///
     /// # Errors
@@ -170,7 +183,6 @@ impl GridSheet<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use muslin_scenes::Sheet;
 
     /// Bends a sheet around its middle row, to the front or to the back.
     fn bent_sheet(front: bool) -> (Cloth, GridDesc) {

@@ -37,6 +37,8 @@ impl ReceiptApp {
             .filter_map(|pin| self.cloth.positions().get(pin as usize).map(|at| *at / unit))
             .collect();
         let span = self.span();
+        // The reset animation moves the paper without ticks.
+        self.creases.record(&self.cloth, self.settings.sheet, self.grid_size());
         let view = self.cloth.view();
         self.positions.clear();
         self.positions.extend(view.positions.iter().map(|at| *at / unit));
@@ -56,7 +58,7 @@ impl ReceiptApp {
         };
         let density = output.width() as f32 / self.screen.size.x.max(1.0);
         let start = (self.clock)();
-        renderer.upload_paper(&surface);
+        renderer.upload_paper(&surface, &mut self.creases.map);
         let uploaded = (self.clock)();
         let view = ReceiptFrame {
             view: self.camera.view(),

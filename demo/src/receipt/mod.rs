@@ -10,6 +10,7 @@
 
 pub mod camera_rig;
 pub mod crease;
+pub mod crease_map;
 mod draw;
 pub mod gestures;
 pub mod ink_map;
@@ -307,6 +308,7 @@ impl ReceiptApp {
                 self.letter_fold = Some(letter_fold);
             }
             self.cloth.step(1);
+            self.creases.record(&self.cloth, self.settings.sheet, self.grid_size());
         }
         Ok(())
     }

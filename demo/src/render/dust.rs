@@ -11,6 +11,7 @@
 use glam::Vec3;
 use three_d::{Blend, Context, CoreError, Cull, Program, RenderStates, VertexBuffer, WriteMask};
 
+use super::lazy_program::LazyProgram;
 use super::light::{FLOOR, STAGE_CENTRE};
 use super::pass::{RenderPass, to_gl_matrix, to_gl_vector};
 
@@ -22,7 +23,7 @@ const DROPS: u32 = 700;
 /// Corners of the motes and of the drops, and the shader programs.
 pub struct Dust {
     dust: Program,
-    rain: Program,
+    pub(super) rain: LazyProgram,
     motes: VertexBuffer<[f32; 3]>,
     drops: VertexBuffer<[f32; 3]>,
 }
@@ -39,11 +40,11 @@ impl Dust {
                 include_str!("shaders/dust.vert"),
                 include_str!("shaders/dust.frag"),
             )?,
-            rain: Program::from_source(
+            rain: LazyProgram::new(
                 context,
                 include_str!("shaders/rain.vert"),
                 include_str!("shaders/rain.frag"),
-            )?,
+            ),
             motes: VertexBuffer::new_with_data(context, &quads(MOTES)),
             drops: VertexBuffer::new_with_data(context, &quads(DROPS)),
         })
@@ -64,8 +65,16 @@ impl Dust {
     }
 
     /// Draws drops that fall with `velocity` [m/s] as they are at `time` [s].
-    pub(super) fn draw_rain(&self, pass: &RenderPass, velocity: Vec3, time: f32) {
-        let p = &self.rain;
+    ///
+    /// # Errors
+    /// [`CoreError`] if the driver refuses the shader.
+    pub(super) fn draw_rain(
+        &self,
+        pass: &RenderPass,
+        velocity: Vec3,
+        time: f32,
+    ) -> Result<(), CoreError> {
+        let p = self.rain.get()?;
         p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
         p.use_uniform("centre", to_gl_vector(STAGE_CENTRE));
         p.use_uniform("eye", to_gl_vector(pass.view.eye));
@@ -75,6 +84,7 @@ impl Dust {
         p.use_uniform("time", time);
         p.use_vertex_attribute("mote", &self.drops);
         p.draw_arrays(added(), pass.viewport, self.drops.vertex_count());
+        Ok(())
     }
 }
 

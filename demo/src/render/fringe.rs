@@ -16,11 +16,12 @@ use std::f32::consts::TAU;
 
 use glam::{Mat2, Vec2};
 use three_d::{
-    Blend, Context, CoreError, Interpolation, Program, RenderStates, Texture2D, VertexBuffer,
-    Wrapping, WriteMask,
+    Blend, Context, CoreError, Interpolation, RenderStates, Texture2D, VertexBuffer, Wrapping,
+    WriteMask,
 };
 
 use super::cloth_material::ClothAlbedo;
+use super::lazy_program::LazyProgram;
 use super::mesh::ClothSurface;
 use super::pass::{RenderPass, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
@@ -51,7 +52,7 @@ struct Thread {
 
 /// Shader program of the threads.
 pub struct Fringe {
-    program: Program,
+    pub(super) program: LazyProgram,
 }
 
 /// Threads of one cloth.
@@ -73,16 +74,12 @@ const TEXELS: usize = 4;
 const ROW: usize = 64;
 
 impl Fringe {
-    /// Compiles the shaders.
-    ///
-    /// # Errors
-    /// [`CoreError`] if the driver refuses the shader.
-    pub fn new(context: &Context) -> Result<Self, CoreError> {
+    /// Creates what draws the threads.
+    pub fn new(context: &Context) -> Self {
         let fragment =
             concat!(include_str!("shaders/light.glsl"), include_str!("shaders/fringe.frag"));
-        Ok(Self {
-            program: Program::from_source(context, include_str!("shaders/fringe.vert"), fragment)?,
-        })
+        let vertex = include_str!("shaders/fringe.vert");
+        Self { program: LazyProgram::new(context, vertex, fragment) }
     }
 
     pub(super) fn draw(
@@ -92,11 +89,11 @@ impl Fringe {
         shadow: &ShadowMap,
         albedo: &ClothAlbedo,
         dim: f32,
-    ) {
+    ) -> Result<(), CoreError> {
         let Some(thread_texture) = &threads.thread_texture else {
-            return;
+            return Ok(());
         };
-        let p = &self.program;
+        let p = self.program.get()?;
         let pixels = Vec2::new(pass.viewport.width as f32, pass.viewport.height as f32);
         p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
         p.use_uniform("pixels", three_d::Vec2::new(pixels.x, pixels.y));
@@ -119,6 +116,7 @@ impl Fringe {
         };
         let corners = CORNERS * threads.threads.len() as u32;
         p.draw_arrays(states, pass.viewport, corners);
+        Ok(())
     }
 }
 

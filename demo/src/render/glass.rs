@@ -11,8 +11,9 @@
 //!
 //! Invariant: glass casts no shadow of the depth maps; the floor draws its caustic.
 
-use three_d::{Context, CoreError, Program, RenderStates, Texture2D};
+use three_d::{Context, CoreError, RenderStates, Texture2D};
 
+use super::lazy_program::LazyProgram;
 use super::light::{FLOOR, invert_tone_curve};
 use super::pass::{RenderPass, to_gl_vector};
 use super::shadow::ShadowMap;
@@ -20,20 +21,17 @@ use super::solid::{Solid, Solids};
 
 /// Shader program of the balls.
 pub struct Glass {
-    program: Program,
+    pub(super) program: LazyProgram,
 }
 
 impl Glass {
-    /// Compiles the shaders.
-    ///
-    /// # Errors
-    /// [`CoreError`] if the driver refuses a shader.
-    pub fn new(context: &Context) -> Result<Self, CoreError> {
+    /// Creates what draws the balls.
+    pub fn new(context: &Context) -> Self {
         let vertex =
             concat!(include_str!("shaders/capsule.glsl"), include_str!("shaders/solid.vert"));
         let fragment =
             concat!(include_str!("shaders/light.glsl"), include_str!("shaders/glass.frag"));
-        Ok(Self { program: Program::from_source(context, vertex, fragment)? })
+        Self { program: LazyProgram::new(context, vertex, fragment) }
     }
 
     /// Draws the balls among `all`, whose meshes are in `solids`, from far to near.
@@ -44,8 +42,8 @@ impl Glass {
         all: &[Solid],
         (shadow, scene): (&ShadowMap, &Texture2D),
         dim: f32,
-    ) {
-        let p = &self.program;
+    ) -> Result<(), CoreError> {
+        let p = self.program.get()?;
         let mut balls: Vec<_> = all.iter().filter(|solid| solid.is_glass).collect();
         let away = |ball: &Solid| ball.from.distance(pass.view.eye);
         balls.sort_by(|a, b| away(b).total_cmp(&away(a)));
@@ -67,5 +65,6 @@ impl Glass {
             shadow.bind(p, &pass.lights);
             p.draw_elements(RenderStates::default(), pass.viewport, triangles);
         }
+        Ok(())
     }
 }

@@ -20,6 +20,7 @@ pub mod glow;
 pub mod ground;
 mod halo;
 mod hdr_target;
+mod lazy_program;
 pub mod light;
 pub mod mesh;
 mod pass;
@@ -39,6 +40,7 @@ use crate::fabric::Appearance;
 pub use canvas::OffscreenCanvas;
 use cloth_material::ClothAlbedo;
 use hdr_target::HdrTarget;
+use lazy_program::LazyProgram;
 use light::Light;
 pub use mesh::ClothSurface;
 use mesh::Detail;
@@ -89,6 +91,8 @@ pub struct Renderer {
     post: post::Post,
     quad: UnitQuad,
     target: Option<HdrTarget>,
+    /// Whether a frame was drawn.
+    has_drawn: bool,
 }
 
 /// GPU buffers of a cloth and of its frayed edges.
@@ -105,31 +109,33 @@ const COARSE_SHADOW_SIZE: u32 = 256;
 const RIM_SHADOW_SIZE: u32 = 512;
 
 impl Renderer {
-    /// Compiles the shaders and creates the textures.
+    /// Compiles the shaders of the first frame and creates the textures.
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses a shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
+        let depths = shadow::DepthProgram::new(context)?;
         Ok(Self {
             context: context.clone(),
             lights: light::Lights::default(),
             cloths: Vec::new(),
-            shadow: shadow::ShadowMap::new(context, KEY_SHADOW_SIZE)?,
-            coarse_shadow: shadow::ShadowMap::new(context, COARSE_SHADOW_SIZE)?,
-            rim_shadow: shadow::ShadowMap::new(context, RIM_SHADOW_SIZE)?,
+            shadow: shadow::ShadowMap::new(context, &depths, KEY_SHADOW_SIZE),
+            coarse_shadow: shadow::ShadowMap::new(context, &depths, COARSE_SHADOW_SIZE),
+            rim_shadow: shadow::ShadowMap::new(context, &depths, RIM_SHADOW_SIZE),
             sky: sky::Sky::new(context)?,
             cloth: cloth_material::ClothMaterial::new(context)?,
             ground: ground::Ground::new(context)?,
-            glass: glass::Glass::new(context)?,
+            glass: glass::Glass::new(context),
             glow: glow::Glow::new(context)?,
             dust: dust::Dust::new(context)?,
-            wireframe: wireframe::Wireframe::new(context)?,
-            fringe: fringe::Fringe::new(context)?,
-            trail: trail::Trail::new(context)?,
+            wireframe: wireframe::Wireframe::new(context),
+            fringe: fringe::Fringe::new(context),
+            trail: trail::Trail::new(context),
             solids: solid::Solids::new(context)?,
             post: post::Post::new(context)?,
             quad: UnitQuad::new(context),
             target: None,
+            has_drawn: false,
         })
     }
 
@@ -161,6 +167,7 @@ impl Renderer {
     ) -> Result<(), CoreError> {
         let side = |pixels: u32| (pixels as f32 * frame.resolution_scale).round().max(1.0) as u32;
         let (width, height) = (side(output.width()), side(output.height()));
+        self.prepare_program()?;
         HdrTarget::resize(&mut self.target, &self.context, [width, height], frame.is_low);
         let [key, rim] = [&self.lights.key, &self.lights.rim].map(Light::clip_from_world);
         let maps = [
@@ -212,15 +219,15 @@ impl Renderer {
                     self.cloth.draw(&pass, &cloth.mesh, shadows, albedo, dim);
                 }
                 for (cloth, albedo) in cloths() {
-                    self.fringe.draw(&pass, &cloth.threads, &self.shadow, albedo, dim);
+                    self.fringe.draw(&pass, &cloth.threads, &self.shadow, albedo, dim)?;
                     if frame.wireframe {
-                        self.wireframe.draw(&pass, &cloth.mesh);
+                        self.wireframe.draw(&pass, &cloth.mesh)?;
                     }
                 }
                 self.glow.draw(&pass, &self.quad, &halos);
                 self.dust.draw(&pass, frame.time);
                 if let Some(velocity) = frame.rain {
-                    self.dust.draw_rain(&pass, velocity, frame.time);
+                    self.dust.draw_rain(&pass, velocity, frame.time)?;
                 }
                 Ok(())
             })?;
@@ -232,17 +239,30 @@ impl Renderer {
         target.samples.write::<CoreError>(|| {
             if has_glass {
                 let sources = (&self.shadow, &target.resolved);
-                self.glass.draw(&pass, &self.solids, frame.solids, sources, dim);
+                self.glass.draw(&pass, &self.solids, frame.solids, sources, dim)?;
             }
-            self.trail.draw(&pass, frame.trail);
-            Ok(())
+            self.trail.draw(&pass, frame.trail)
         })?;
         target.samples.resolve_color_to(&target.resolved.as_color_target(None));
         output.write::<CoreError>(|| {
             self.post.draw(output.viewport(), &self.quad, &target.resolved);
             Ok(())
         })?;
+        self.has_drawn = true;
         Ok(())
+    }
+
+    /// Compiles one of the programs that the frames so far did not need, except before the first
+    /// frame.
+    fn prepare_program(&self) -> Result<(), CoreError> {
+        let Self { glass, wireframe, fringe, trail, dust, .. } = self;
+        let programs =
+            [&fringe.program, &trail.program, &wireframe.program, &glass.program, &dust.rain];
+        let is_waiting = |program: &&&LazyProgram| !program.is_ready();
+        match programs.iter().find(is_waiting) {
+            Some(program) if self.has_drawn => program.get().map(|_| ()),
+            _ => Ok(()),
+        }
     }
 
     /// Returns the context of the GPU resources.

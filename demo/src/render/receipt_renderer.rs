@@ -23,10 +23,11 @@ use super::hdr_target::HdrTarget;
 use super::light::{Light, Lights, linear};
 use super::mesh::{ClothSurface, Detail, Mesh};
 use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
-use super::shadow::ShadowMap;
+use super::shadow::{DepthProgram, ShadowMap};
 use super::sky_light::SkyLight;
 use super::solid::{Solid, Solids};
 use crate::camera::CameraView;
+use crate::receipt::crease_map::CreaseMap;
 use crate::receipt::ink_map::InkMap;
 
 /// Colour of the background.
@@ -67,6 +68,7 @@ pub struct ReceiptRenderer {
     depths: ShadowMap,
     sky: SkyLight,
     ink: Texture2D,
+    creases: Option<Texture2D>,
     paper: Program,
     ground: Program,
     solids: Solids,
@@ -94,14 +96,16 @@ impl ReceiptRenderer {
             include_str!("shaders/sky_light.glsl"),
             include_str!("shaders/table.frag")
         );
+        let depths = DepthProgram::new(context)?;
         Ok(Self {
             context: context.clone(),
             lights: lights(),
             mesh: Mesh::new(context),
-            shadow: ShadowMap::new(context, SHADOW_SIZE)?,
-            depths: ShadowMap::new(context, DEPTH_SIZE)?,
-            sky: SkyLight::new(context)?,
+            shadow: ShadowMap::new(context, &depths, SHADOW_SIZE),
+            depths: ShadowMap::new(context, &depths, DEPTH_SIZE),
+            sky: SkyLight::new(context, &depths),
             ink: ink(context),
+            creases: None,
             paper: Program::from_source(context, include_str!("shaders/cloth.vert"), lit)?,
             ground: Program::from_source(context, include_str!("shaders/ground.vert"), ground)?,
             solids: Solids::new(context)?,
@@ -117,9 +121,26 @@ impl ReceiptRenderer {
         })
     }
 
-    /// Uploads the current state of the paper.
-    pub fn upload_paper(&mut self, surface: &ClothSurface<'_>) {
+    /// Uploads the current state of the paper and of its creases.
+    pub fn upload_paper(&mut self, surface: &ClothSurface<'_>, creases: &mut CreaseMap) {
         self.mesh.update(surface);
+        let [width, height] = creases.size();
+        let has_size = |map: &Texture2D| (map.width(), map.height()) == (width, height);
+        if !self.creases.as_ref().is_some_and(has_size) {
+            self.creases = Some(Texture2D::new_empty::<[f32; 4]>(
+                &self.context,
+                width,
+                height,
+                Interpolation::Nearest,
+                Interpolation::Nearest,
+                None,
+                Wrapping::ClampToEdge,
+                Wrapping::ClampToEdge,
+            ));
+        }
+        if let Some(map) = &mut self.creases {
+            map.fill(creases.texels());
+        }
         let count = surface.positions.len().max(1) as f32;
         self.centre = surface.positions.iter().sum::<Vec3>() / count;
         let far = surface.positions.iter().map(|at| at.distance(self.centre));
@@ -202,7 +223,11 @@ impl ReceiptRenderer {
     }
 
     fn draw_paper(&self, pass: &RenderPass, clip: Mat4) {
+        let Some(creases) = &self.creases else {
+            return;
+        };
         let p = &self.paper;
+        p.use_texture("creases", creases);
         p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
         p.use_uniform("eye", to_gl_vector(pass.view.eye));
         p.use_uniform("mirrored", 0.0_f32);

@@ -8,6 +8,8 @@
 //! Invariant: for the cloth scenes the light matrix is constant, so that shadows at rest do not
 //! flicker.
 
+use std::rc::Rc;
+
 use glam::Mat4;
 use three_d::context::{self, HasContext};
 use three_d::{
@@ -19,24 +21,17 @@ use super::light::{Light, Lights};
 use super::mesh::{Detail, Mesh};
 use super::pass::{to_gl_matrix, to_gl_vector};
 
-/// Depth texture of one light, and the program that fills it.
+/// Depth texture of one light, and the program that fills it and others.
 pub struct ShadowMap {
     context: Context,
-    depths: DepthProgram,
+    depths: Rc<DepthProgram>,
     map: DepthTexture2D,
 }
 
 impl ShadowMap {
-    /// Creates an empty map of `size` × `size` texels.
-    ///
-    /// # Errors
-    /// [`CoreError`] if the driver refuses the shader.
-    pub fn new(context: &Context, size: u32) -> Result<Self, CoreError> {
-        Ok(Self {
-            context: context.clone(),
-            depths: DepthProgram::new(context)?,
-            map: depth_map(context, size),
-        })
+    /// Creates an empty map of `size` × `size` texels, which `depths` fills.
+    pub(super) fn new(context: &Context, depths: &Rc<DepthProgram>, size: u32) -> Self {
+        Self { context: context.clone(), depths: depths.clone(), map: depth_map(context, size) }
     }
 
     /// Draws the depth of `meshes`, and of other objects through `draw_others`, as the light sees
@@ -96,10 +91,10 @@ impl DepthProgram {
     ///
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
-    pub fn new(context: &Context) -> Result<Self, CoreError> {
+    pub fn new(context: &Context) -> Result<Rc<Self>, CoreError> {
         let [vertex, fragment] =
             [include_str!("shaders/depth.vert"), include_str!("shaders/depth.frag")];
-        Program::from_source(context, vertex, fragment).map(Self)
+        Ok(Rc::new(Self(Program::from_source(context, vertex, fragment)?)))
     }
 
     /// Draws a cloth into the part of a depth map that `viewport` covers.

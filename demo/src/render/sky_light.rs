@@ -7,6 +7,8 @@
 //!
 //! Invariant: the light matrices in the shader are the ones that the maps were drawn with.
 
+use std::rc::Rc;
+
 use glam::{Mat4, Vec3};
 use three_d::{ClearState, Context, CoreError, DepthTexture2D, Program, Viewport};
 
@@ -24,24 +26,21 @@ const TEXELS: u32 = 384;
 /// Depth atlas with its directions and light matrices.
 pub struct SkyLight {
     context: Context,
-    depths: DepthProgram,
+    depths: Rc<DepthProgram>,
     maps: DepthTexture2D,
     towards: [Vec3; COUNT],
     clips: [Mat4; COUNT],
 }
 
 impl SkyLight {
-    /// Creates empty maps.
-    ///
-    /// # Errors
-    /// [`CoreError`] if the driver refuses the shader.
-    pub fn new(context: &Context) -> Result<Self, CoreError> {
+    /// Creates empty maps, which `depths` fills.
+    pub(super) fn new(context: &Context, depths: &Rc<DepthProgram>) -> Self {
         // One direction nearly straight up, so that hanging paper is not seen edge-on, and three
         // inclined ones around it.
         let around = |turn: f32| Vec3::new(turn.sin(), 0.62, turn.cos()).normalize();
-        Ok(Self {
+        Self {
             context: context.clone(),
-            depths: DepthProgram::new(context)?,
+            depths: depths.clone(),
             maps: depth_map(context, SIDE * TEXELS),
             towards: [
                 Vec3::new(-0.2, 1.0, 0.3).normalize(),
@@ -50,7 +49,7 @@ impl SkyLight {
                 around(3.7),
             ],
             clips: [Mat4::IDENTITY; COUNT],
-        })
+        }
     }
 
     /// Draws the maps for a cloth within `radius` of `centre`.

@@ -7,10 +7,9 @@
 //! Invariant: two paths are never connected.
 
 use glam::Vec2;
-use three_d::{
-    Blend, Context, CoreError, DepthTest, Program, RenderStates, VertexBuffer, WriteMask,
-};
+use three_d::{Blend, Context, CoreError, DepthTest, RenderStates, VertexBuffer, WriteMask};
 
+use super::lazy_program::LazyProgram;
 use super::light::linear;
 use super::pass::{RenderPass, to_gl_vector};
 
@@ -30,33 +29,34 @@ pub struct TrailPoint {
 
 /// Shader program of the trail.
 pub struct Trail {
-    program: Program,
+    pub(super) program: LazyProgram,
     ribbon: VertexBuffer<[f32; 4]>,
 }
 
 impl Trail {
-    /// Compiles the shaders.
-    ///
-    /// # Errors
-    /// [`CoreError`] if the driver refuses the shader.
-    pub fn new(context: &Context) -> Result<Self, CoreError> {
-        Ok(Self {
-            program: Program::from_source(
+    /// Creates an empty ribbon.
+    pub fn new(context: &Context) -> Self {
+        Self {
+            program: LazyProgram::new(
                 context,
                 include_str!("shaders/trail.vert"),
                 include_str!("shaders/trail.frag"),
-            )?,
+            ),
             ribbon: VertexBuffer::new(context),
-        })
+        }
     }
 
-    pub(super) fn draw(&mut self, pass: &RenderPass, trail_points: &[TrailPoint]) {
+    pub(super) fn draw(
+        &mut self,
+        pass: &RenderPass,
+        trail_points: &[TrailPoint],
+    ) -> Result<(), CoreError> {
         let ribbon = ribbon(trail_points, pass.aspect());
         if ribbon.is_empty() {
-            return;
+            return Ok(());
         }
         self.ribbon.fill(&ribbon);
-        let p = &self.program;
+        let p = self.program.get()?;
         p.use_uniform("glow", to_gl_vector(linear(0x7cc0ff)));
         p.use_vertex_attribute("place", &self.ribbon);
         let states = RenderStates {
@@ -66,6 +66,7 @@ impl Trail {
             ..RenderStates::default()
         };
         p.draw_arrays(states, pass.viewport, self.ribbon.vertex_count());
+        Ok(())
     }
 }
 

@@ -7,8 +7,9 @@
 //! Invariant: a mesh without lines draws nothing.
 
 use three_d::context::{self, HasContext};
-use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
+use three_d::{Blend, Context, CoreError, RenderStates, WriteMask};
 
+use super::lazy_program::LazyProgram;
 use super::light::linear;
 use super::mesh::Mesh;
 use super::pass::{RenderPass, to_gl_matrix};
@@ -16,30 +17,27 @@ use super::pass::{RenderPass, to_gl_matrix};
 /// Shader program of the lines.
 pub struct Wireframe {
     context: Context,
-    program: Program,
+    pub(super) program: LazyProgram,
 }
 
 impl Wireframe {
-    /// Compiles the shaders.
-    ///
-    /// # Errors
-    /// [`CoreError`] if the driver refuses the shader.
-    pub fn new(context: &Context) -> Result<Self, CoreError> {
-        Ok(Self {
+    /// Creates what draws the lines.
+    pub fn new(context: &Context) -> Self {
+        Self {
             context: context.clone(),
-            program: Program::from_source(
+            program: LazyProgram::new(
                 context,
                 include_str!("shaders/wire.vert"),
                 include_str!("shaders/wire.frag"),
-            )?,
-        })
+            ),
+        }
     }
 
-    pub(super) fn draw(&self, pass: &RenderPass, mesh: &Mesh) {
+    pub(super) fn draw(&self, pass: &RenderPass, mesh: &Mesh) -> Result<(), CoreError> {
         if mesh.lines.count() == 0 {
-            return;
+            return Ok(());
         }
-        let p = &self.program;
+        let p = self.program.get()?;
         let tint = linear(0x7cc0ff);
         p.use_uniform("clipFromWorld", to_gl_matrix(pass.clip_from_world));
         p.use_uniform("tint", three_d::Vec4::new(tint.x, tint.y, tint.z, 0.55));
@@ -61,5 +59,6 @@ impl Wireframe {
                 );
             }
         });
+        Ok(())
     }
 }

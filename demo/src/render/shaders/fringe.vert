@@ -37,7 +37,8 @@ vec3 threadPoint(float s) {
 
 void main() {
     int thread = int(corner.z);
-    ivec2 first = ivec2(4 * (thread % 64), thread / 64);
+    // Rows are stored from the last to the first.
+    ivec2 first = ivec2(4 * (thread % 64), textureSize(threads, 0).y - 1 - thread / 64);
     vec4 texels[4];
     for (int i = 0; i < 4; i++) texels[i] = texelFetch(threads, first + ivec2(i, 0), 0);
     root = texels[0].xyz;
