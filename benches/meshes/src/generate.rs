@@ -83,7 +83,7 @@ fn plane(side: u32) -> MeshDesc {
     for row in 0..side - 1 {
         for a in (row * side..).take(side as usize - 1) {
             let [b, c, d] = [a + 1, a + side, a + side + 1];
-            let is_even = (a % side + row) % 2 == 0;
+            let is_even = (a % side + row).is_multiple_of(2);
             desc.indices.extend(if is_even { [a, c, b, b, c, d] } else { [a, c, d, a, d, b] });
         }
     }

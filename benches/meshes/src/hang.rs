@@ -3,8 +3,6 @@
 use cpu_time::ThreadTime;
 use muslin::glam::Vec3;
 use muslin::{Cloth, GridDesc, Material, MeshDesc, MeshReport, PinMode, Preset, Stage};
-use std::sync::OnceLock;
-use std::time::Instant;
 
 /// How many times each cloth is hung.
 pub const RUNS: usize = 3;
@@ -61,7 +59,7 @@ pub fn hang_grid(like: &Hung, ticks: u32) -> f64 {
         ..GridDesc::default()
     })
     .expect("the grid is valid");
-    for particle in top(&cloth.positions().to_vec()) {
+    for particle in top(cloth.positions()) {
         cloth.pin(particle, None).expect("the particle exists");
     }
     1.0e6 * time(&cloth, ticks).0 / f64::from(side * side)
@@ -110,10 +108,9 @@ fn time(cloth: &Cloth, ticks: u32) -> (f64, f64, Cloth) {
     (ms * least, ms * least_bending, end)
 }
 
-/// Returns the seconds since the first call.
+/// Returns the processor time of this thread [s]; time of other programs is not counted.
 fn clock() -> f64 {
-    static START: OnceLock<Instant> = OnceLock::new();
-    START.get_or_init(Instant::now).elapsed().as_secs_f64()
+    ThreadTime::now().as_duration().as_secs_f64()
 }
 
 /// The stretch of every edge between two states of a cloth.
