@@ -16,7 +16,6 @@ mod split_non_manifold;
 mod weld;
 
 use crate::error::{Error, Result, check};
-use crate::math::sort::sort_by;
 use crate::mesh::report::MeshReport;
 use crate::mesh::seams::Seams;
 use crate::mesh::{Corner, Mesh};
@@ -139,11 +138,6 @@ fn measure(
 ) {
     let position = |p: u32| positions[source_vertices[p as usize] as usize];
     report.measure_quality(mesh, position, |triangle| given[triangle as usize]);
-}
-
-/// Sorts entries by a measure, then by their numbers, ascending.
-fn sort_measured(entries: &mut [(f64, u32, u32)]) {
-    sort_by(entries, |p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
 }
 
 /// Returns the new number of a corner: flipping its triangle swaps the second and the third.

@@ -25,9 +25,8 @@
 //! Reads positions, texture coordinates and pins; writes the triangles of a repaired mesh.
 //! Invariant: the mesh stays sound; its pieces and their borders stay as many.
 
-use crate::math::sort::sort;
+use crate::math::sort::{sort, sort_measured};
 use crate::mesh::intake::remove_degenerate::is_degenerate;
-use crate::mesh::intake::sort_measured;
 use crate::mesh::report::MeshReport;
 use crate::mesh::seams::Seams;
 use crate::mesh::{Mesh, NONE};

@@ -14,8 +14,7 @@
 //!
 //! Invariant of the result: at most two triangles per edge, one fan per particle.
 
-use crate::math::sort::sort_groups;
-use crate::mesh::intake::sort_measured;
+use crate::math::sort::{sort_groups, sort_measured};
 use crate::mesh::{Corner, next_corner, prev_corner, triangle_of};
 use glam::{DVec3, Vec3};
 
