@@ -3,7 +3,7 @@
 
 use crate::common::garments::{assert_mesh_invariants, push_grid_patch};
 use crate::common::{rms_speed, triangles};
-use crate::slivers::{CELL, CELLS, slivered_sheet};
+use crate::slivers::{CELL, slivered_sheet};
 use muslin::glam::{DVec3, Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, Map, Material, MeshDesc, Preset, Shape};
 use proptest::prelude::*;

@@ -6,7 +6,7 @@ use muslin::glam::Vec3;
 use muslin::{Cloth, ColliderDesc, Material, MeshDesc, Preset, Shape};
 
 /// Cells along each side, and size of a cell [m].
-pub(crate) const CELLS: u32 = 24;
+const CELLS: u32 = 24;
 pub(crate) const CELL: f32 = 0.0072;
 /// Distance of an added vertex from a corner or an edge of its triangle [m].
 const NEAR: f32 = 9.0e-5;
