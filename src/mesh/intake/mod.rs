@@ -129,6 +129,7 @@ pub(crate) fn repair(
 }
 
 /// Measures the quality of a mesh. `given[t]` is the number of triangle t in the given list.
+#[inline(never)]
 fn measure(
     report: &mut MeshReport,
     mesh: &Mesh,

@@ -9,8 +9,8 @@
 //!  collapse of u to v                         e     flip       e
 //! ```
 //! Half-edge collapses (Hoppe et al., "Mesh Optimization", SIGGRAPH 1993), the shortest edge first.
-//! v stays where it is, so each particle is at the position of a given vertex. A collapse is refused
-//! if
+//! v stays where it is, so each particle is at the position of a given vertex. A collapse is
+//! refused if
 //!
 //! - it would change the topology: link condition of Dey, Edelsbrunner, Guha and Nekhayev,
 //!   "Topology Preserving Edge Contraction", 1999;
@@ -21,6 +21,8 @@
 //!
 //! A flip makes the lower of two triangles higher. It never crosses a seam. An obtuse low
 //! triangle whose longest edge is on the border is removed, once at each place.
+//!
+//! Functions with several callers are not inlined: they run once, and a page loads them.
 //!
 //! Reads positions, texture coordinates and pins; writes the triangles of a repaired mesh.
 //! Invariant: the mesh stays sound; its pieces and their borders stay as many.
@@ -152,6 +154,7 @@ impl<'a> Surface<'a> {
     }
 
     /// The edges below the limit, the shortest first: square of the length [m²] and both ends.
+    #[inline(never)]
     fn short_edges(&self) -> Vec<(f64, u32, u32)> {
         let mut edges = Vec::new();
         for [a, b, c] in self.triangles.iter().filter(|corners| corners[0] != NONE) {
@@ -179,11 +182,13 @@ impl<'a> Surface<'a> {
         true
     }
 
+    #[inline(never)]
     fn edge(&self, from: u32, to: u32) -> DVec3 {
         self.x[to as usize].as_dvec3() - self.x[from as usize].as_dvec3()
     }
 
-    /// Normal of a triangle, as long as twice its area [m²], and the square of its least height [m²].
+    /// Normal of a triangle, as long as twice its area [m²], and square of its least height [m²].
+    #[inline(never)]
     fn measure(&self, [a, b, c]: [u32; 3]) -> (DVec3, f64) {
         let normal = self.edge(a, b).cross(self.edge(a, c));
         let longest2 = [(a, b), (b, c), (c, a)].iter().fold(0.0_f64, |longest2, (p, q)| {
@@ -194,6 +199,7 @@ impl<'a> Surface<'a> {
     }
 
     /// The neighbours of a particle, each with its one or two triangles, sorted.
+    #[inline(never)]
     fn spokes(&self, u: u32) -> Vec<Spoke> {
         let mut spokes = Vec::new();
         for t in &self.fans[u as usize] {
@@ -205,6 +211,7 @@ impl<'a> Surface<'a> {
     }
 
     /// The vertex of a particle in a triangle.
+    #[inline(never)]
     fn vertex(&self, t: u32, particle: u32) -> u32 {
         let mut corners = self.triangles[t as usize].iter().zip(&self.vertices[t as usize]);
         corners.find(|(p, _)| **p == particle).map_or(NONE, |(_, vertex)| *vertex)
@@ -217,6 +224,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Whether the edge from `u` is a border or a seam, by its one or two spokes.
+    #[inline(never)]
     fn is_feature(&self, u: u32, edge: &[Spoke]) -> bool {
         let [(p, one), (_, other)] = edge else { return true };
         [u, *p].iter().any(|p| !self.is_same(self.vertex(*one, *p), self.vertex(*other, *p)))
@@ -236,6 +244,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Least height [m²] of the triangles around `u` if it collapses to `v`; -1 if it cannot.
+    #[inline(never)]
     fn height_after(&self, u: u32, v: u32) -> f64 {
         const REFUSED: f64 = -1.0;
         let (at_u, at_v) = (self.spokes(u), self.spokes(v));
@@ -295,6 +304,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Moves the triangles of `u` to `v`, and removes those with both.
+    #[inline(never)]
     fn collapse(&mut self, u: u32, v: u32) {
         let fan = core::mem::take(&mut self.fans[u as usize]);
         // The vertex of v that takes the place of a vertex of u, where a removed triangle has both.
@@ -377,6 +387,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Gives a triangle the particle `new`, with its `vertex`, in place of `old`.
+    #[inline(never)]
     fn replace_corner(&mut self, t: u32, old: u32, new: u32, vertex: u32) {
         for k in 0..3 {
             if self.triangles[t as usize][k] == old {
@@ -389,6 +400,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Removes a triangle.
+    #[inline(never)]
     fn remove(&mut self, t: u32) {
         for p in core::mem::replace(&mut self.triangles[t as usize], [NONE; 3]) {
             self.fans[p as usize].retain(|other| *other != t);
