@@ -159,6 +159,8 @@ mod documents {
     struct SettingsPage;
     #[doc = include_str!("../docs/manual/materials.md")]
     struct MaterialsPage;
+    #[doc = include_str!("../docs/manual/meshes.md")]
+    struct MeshesPage;
     #[doc = include_str!("../docs/manual/tearing-and-cutting.md")]
     struct TearingAndCuttingPage;
     #[doc = include_str!("../docs/manual/skins.md")]

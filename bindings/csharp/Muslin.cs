@@ -375,7 +375,8 @@ namespace Muslin
     /// - where more than two triangles share an edge, the flattest pair stays joined and the others
     ///   get an edge of their own;
     /// - sheets that touch in a single vertex are separated there;
-    /// - within each piece, triangles are turned to face as most of them do.
+    /// - within each piece, triangles are turned to face as most of them do;
+    /// - if `simplify_below` is above 0, short edges are collapsed.
     ///
     /// Vertices that no triangle uses stay where they are.
     ///
@@ -392,8 +393,8 @@ namespace Muslin
         /// <summary>Set by muslin_mesh_desc_init.</summary>
         public uint struct_size;
         /// <summary>
-        /// Rest positions of the vertices [m], 3 numbers per vertex. If nothing is welded or split,
-        /// vertex i is particle i; otherwise see `particles` of MuslinView.
+        /// Rest positions of the vertices [m], 3 numbers per vertex. If nothing is welded, split or
+        /// collapsed, vertex i is particle i; otherwise see `particles` of MuslinView.
         /// </summary>
         public float* positions;
         /// <summary>
@@ -435,6 +436,20 @@ namespace Muslin
         public MuslinMaterial material;
         /// <summary>Settings.</summary>
         public MuslinSettings settings;
+        /// <summary>Not used. Default 0.</summary>
+        public uint reserved;
+        /// <summary>
+        /// Edges shorter than this are collapsed [m]. Default 0: none. At most the mean length of
+        /// the edges.
+        ///
+        /// One end of such an edge moves to the other, with its vertices, and the triangles at the
+        /// edge are removed. Triangles that are lower than this get another diagonal where that
+        /// makes them higher. Borders, seams of texture coordinates and their corners stay, a
+        /// pinned vertex moves to pinned ones only, and the topology stays; `short_edges` of
+        /// MuslinMeshReport counts the edges that are short nevertheless. A tenth to a third of the
+        /// mean edge removes the slivers of most meshes.
+        /// </summary>
+        public float simplify_below;
     }
 
     /// <summary>
@@ -753,7 +768,7 @@ namespace Muslin
     ///
     /// Repairs are made in this order: vertices are welded; triangles without an area and repeated
     /// triangles are dropped; edges and vertices where several sheets meet are split; triangles
-    /// that face the other way are turned.
+    /// that face the other way are turned; short edges are collapsed.
     /// </summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct MuslinMeshReport
@@ -814,6 +829,26 @@ namespace Muslin
         /// The triangle with the largest aspect ratio, by its number among the given ones.
         /// </summary>
         public uint thinnest_triangle;
+        /// <summary>
+        /// Number of edges below `simplify_below` that were collapsed; each removed a particle.
+        /// </summary>
+        public uint collapsed_edges;
+        /// <summary>Number of triangles that were removed with collapsed edges.</summary>
+        public uint collapsed_triangles;
+        /// <summary>
+        /// Number of triangles that were removed at a border because they were lower than
+        /// `simplify_below`.
+        /// </summary>
+        public uint trimmed_triangles;
+        /// <summary>
+        /// Number of edges that were flipped because a triangle was lower than `simplify_below`.
+        /// </summary>
+        public uint flipped_edges;
+        /// <summary>
+        /// Number of edges that are still shorter than `simplify_below`: to collapse them would
+        /// change the topology, a border, a seam or a pin, or would turn a triangle over.
+        /// </summary>
+        public uint short_edges;
     }
 
     /// <summary>Statistics of a cloth. Initialise it with muslin_stats_init.</summary>

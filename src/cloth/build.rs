@@ -24,7 +24,7 @@ use crate::mesh::grid;
 use crate::mesh::grid::GridFrame;
 use crate::mesh::grid_detection::DetectedGrid;
 use crate::mesh::intake;
-use crate::mesh::intake::RepairedMesh;
+use crate::mesh::intake::{RepairedMesh, Simplify};
 use crate::mesh::report::MeshReport;
 use crate::mesh::{Mesh, NONE, next_corner};
 use crate::model::chains::Chains;
@@ -134,8 +134,9 @@ fn world_from_grid(desc: &GridDesc) -> (World, MeshReport) {
 fn world_from_mesh(desc: &MeshDesc) -> Result<(World, MeshReport)> {
     let (positions, indices) = (&desc.positions, &desc.indices);
     let capacity_for = |particles: usize| desc.capacity(particles);
+    let simplify = Simplify { below: desc.simplify_below, uvs: &desc.uvs, pinned: &desc.pinned };
     let RepairedMesh { mesh, source_vertices, seams, mut report } =
-        intake::repair(positions, indices, desc.weld_distance, capacity_for)?;
+        intake::repair(positions, indices, desc.weld_distance, &simplify, capacity_for)?;
     let mut rest: Vec<Vec3> =
         source_vertices.iter().map(|vertex| positions[*vertex as usize]).collect();
     let origin = initial_origin(&rest);

@@ -53,6 +53,11 @@ pub(crate) fn sort_by<T>(list: &mut [T], mut order: impl FnMut(&T, &T) -> Orderi
     quicksort(list, is_less, max_depth);
 }
 
+/// Sorts entries by a measure, then by their numbers, ascending.
+pub(crate) fn sort_measured(entries: &mut [(f64, u32, u32)]) {
+    sort_by(entries, |p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2)));
+}
+
 /// Lists up to this length are sorted by insertion.
 const SHORT: usize = 12;
 

@@ -12,7 +12,7 @@ const SHORT_EDGE: f32 = 0.01;
 /// What the repair changed when a cloth was made from a mesh, and the quality of the result.
 ///
 /// The repairs run in this order: weld vertices, remove degenerate and duplicate triangles, split
-/// non-manifold edges and vertices, orient triangles consistently.
+/// non-manifold edges and vertices, orient triangles consistently, collapse short edges.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeshReport {
     /// Number of given vertices.
@@ -56,6 +56,20 @@ pub struct MeshReport {
     pub thin_triangles: u32,
     /// The triangle with the largest aspect ratio, by its number among the given ones.
     pub thinnest_triangle: u32,
+    /// Edges below [`MeshDesc::simplify_below`](crate::MeshDesc) that were collapsed; each removed a
+    /// particle.
+    pub collapsed_edges: u32,
+    /// Triangles that were removed with collapsed edges.
+    pub collapsed_triangles: u32,
+    /// Triangles that were removed at a border because they were lower than
+    /// [`MeshDesc::simplify_below`](crate::MeshDesc).
+    pub trimmed_triangles: u32,
+    /// Edges that were flipped because a triangle was lower than
+    /// [`MeshDesc::simplify_below`](crate::MeshDesc).
+    pub flipped_edges: u32,
+    /// Edges that are still shorter than [`MeshDesc::simplify_below`](crate::MeshDesc): to collapse
+    /// them would change the topology, a border, a seam or a pin, or would turn a triangle over.
+    pub short_edges: u32,
 }
 
 impl MeshReport {
@@ -68,6 +82,9 @@ impl MeshReport {
             self.turned_triangles,
             self.split_edges,
             self.split_vertices,
+            self.collapsed_edges,
+            self.flipped_edges,
+            self.trimmed_triangles,
         ];
         repairs.iter().all(|count| *count == 0)
     }
@@ -102,6 +119,7 @@ impl MeshReport {
             ),
             (self.one_sided_pieces, "piece has", "pieces have", "one side only"),
             (self.unused_vertices, "vertex is", "vertices are", "in no triangle"),
+            (self.short_edges, "edge is", "edges are", "shorter than `simplify_below`"),
             (self.thin_triangles, "triangle has", "triangles have", THIN),
         ];
         let mut warnings = Vec::new();

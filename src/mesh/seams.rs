@@ -60,6 +60,12 @@ impl Seams {
         seams
     }
 
+    /// Replaces the triangles and the particle of each vertex; the vertices stay.
+    pub fn replace(&mut self, triangles: Vec<[u32; 3]>, particles: Vec<u32>) {
+        (self.triangles, self.particles) = (triangles, particles);
+        self.count_corners();
+    }
+
     fn count_corners(&mut self) {
         self.corner_counts.clear();
         self.corner_counts.resize(self.particles.len(), 0);

@@ -159,6 +159,30 @@ static void padding_at_the_end_may_hold_any_bytes(void) {
   (void)hash_after(cloth, 1);
 }
 
+static void fields_behind_the_settings_are_found_behind_newer_ones(void) {
+  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const uint32_t indices[] = {0, 1, 2};
+  struct {
+    NewMeshDesc known;
+    double room;
+  } desc;
+  MuslinMeshDesc *seen = (MuslinMeshDesc *)(void *)&desc;
+  const size_t tail = sizeof desc.known.parts + sizeof(uint32_t);
+  DONE(muslin_mesh_desc_init_sized(seen, sizeof desc, sizeof desc.known.parts.material,
+                                   sizeof desc.known.parts.settings));
+  seen->positions = positions;
+  seen->vertex_count = 3;
+  seen->indices = indices;
+  seen->index_count = 3;
+  MuslinCloth cloth = {0};
+  const float lengths[] = {-1.0f, 0.5f};
+  memcpy((unsigned char *)&desc + tail, &lengths[0], sizeof(float));
+  REFUSED(muslin_cloth_create_mesh(seen, &cloth), MUSLIN_STATUS_BAD_VALUE, "`simplify_below`");
+  memcpy((unsigned char *)&desc + tail, &lengths[1], sizeof(float));
+  DONE(muslin_cloth_create_mesh(seen, &cloth));
+  (void)hash_after(cloth, 1);
+}
+
 static void fields_that_an_older_program_lacks_get_their_defaults(void) {
   MuslinGridDesc desc;
   MuslinCloth cloth = {0};
@@ -231,6 +255,7 @@ int main(void) {
   TEST(a_newer_program_creates_the_same_cloth);
   TEST(new_fields_of_a_newer_program_are_refused_if_set);
   TEST(padding_at_the_end_may_hold_any_bytes);
+  TEST(fields_behind_the_settings_are_found_behind_newer_ones);
   TEST(fields_that_an_older_program_lacks_get_their_defaults);
   TEST(output_fields_that_this_version_lacks_become_zero);
   TEST(struct_sizes_of_no_version_are_refused);

@@ -106,6 +106,33 @@ static void vertices_of_a_seam_share_a_particle_until_it_is_cut(void) {
   DONE(muslin_cloth_destroy(cloth));
 }
 
+/* Two squares of 1 m whose middle vertex is 5 mm from that of the left border. */
+static void short_edges_are_collapsed_and_counted(void) {
+  const float points[] = {0, 0, 0, 1, 0, 0, 0, 0.5f, 0, 0.005f, 0.5f, 0, 1, 0.5f, 0, 0, 1, 0, 1, 1, 0};
+  const uint32_t triangles[] = {0, 1, 3, 0, 3, 2, 1, 4, 3, 2, 3, 5, 3, 6, 5, 3, 4, 6};
+  MuslinMeshDesc desc;
+  muslin_mesh_desc_init(&desc);
+  CHECK(desc.simplify_below == 0.0f && desc.reserved == 0);
+  desc.positions = points;
+  desc.vertex_count = 7;
+  desc.indices = triangles;
+  desc.index_count = 18;
+  desc.simplify_below = 0.01f;
+  MuslinCloth cloth = {0};
+  DONE(muslin_cloth_create_mesh(&desc, &cloth));
+  MuslinMeshReport report;
+  muslin_mesh_report_init(&report);
+  DONE(muslin_cloth_get_mesh_report(cloth, &report));
+  CHECK(report.collapsed_edges == 1 && report.collapsed_triangles == 2 && report.short_edges == 0);
+  CHECK(report.trimmed_triangles == 0 && report.flipped_edges == 0);
+  CHECK(report.particles == 6 && report.kept_triangles == 4 && report.shortest_edge == 0.5f);
+  MuslinView view;
+  muslin_view_init(&view);
+  DONE(muslin_cloth_view(cloth, &view));
+  CHECK(view.vertex_count == 7 && view.particles[3] == view.particles[2]);
+  DONE(muslin_cloth_destroy(cloth));
+}
+
 static void a_grid_as_a_mesh_gives_the_bits_of_the_grid(void) {
   MuslinGridDesc grid;
   MuslinCloth cloths[2] = {{0}, {0}};
@@ -142,6 +169,7 @@ static void a_grid_as_a_mesh_gives_the_bits_of_the_grid(void) {
 int main(void) {
   TEST(the_mesh_report_counts_the_repairs);
   TEST(vertices_of_a_seam_share_a_particle_until_it_is_cut);
+  TEST(short_edges_are_collapsed_and_counted);
   TEST(a_grid_as_a_mesh_gives_the_bits_of_the_grid);
   return failures != 0;
 }

@@ -233,6 +233,12 @@ static void meshes_are_refused_by_field(void) {
   desc = good;
   desc.weld_distance = NAN;
   REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`weld_distance`");
+  const float lengths[] = {-1.0f, NAN, INFINITY, 1.5f}; /* the edges have a mean length of 1.08 m */
+  for (int i = 0; i < 4; i++) {
+    desc = good;
+    desc.simplify_below = lengths[i];
+    REFUSED(muslin_cloth_create_mesh(&desc, &made), BAD_VALUE, "`simplify_below`");
+  }
   CHECK(made.id == 0);
 
   /* Interleaved with other data, and unaligned by one byte. */

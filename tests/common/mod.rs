@@ -75,7 +75,7 @@ pub fn total_mass(cloth: &Cloth) -> f64 {
 
 /// Root mean square speed of all particles [m/s].
 pub fn rms_speed(cloth: &Cloth) -> f32 {
-    let count = cloth.positions().len() as u32;
+    let count = cloth.particle_count();
     let sum: f32 = (0..count).map(|i| cloth.velocity(i).unwrap().length_squared()).sum();
     (sum / count as f32).sqrt()
 }

@@ -67,6 +67,10 @@ fn mesh_errors_name_the_invalid_field() {
         ("indices", |d| (d.positions[0], d.positions[1]) = (Vec3::MAX, Vec3::MIN)),
         ("weld_distance", |d| d.weld_distance = f32::NAN),
         ("weld_distance", |d| d.weld_distance = f32::INFINITY),
+        ("simplify_below", |d| d.simplify_below = f32::NAN),
+        ("simplify_below", |d| d.simplify_below = f32::INFINITY),
+        ("simplify_below", |d| d.simplify_below = -1.0e-6),
+        ("simplify_below", |d| d.simplify_below = 10.0),
         ("pinned", |d| d.pinned = vec![0, 5]),
         ("uvs", |d| d.uvs = vec![Vec2::ZERO; 4]),
     ];

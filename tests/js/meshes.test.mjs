@@ -65,8 +65,28 @@ test("meshReport counts every repair", () => {
     pieces: 1,
     oneSidedPieces: 0,
     isGrid: false,
+    collapsedEdges: 0,
+    collapsedTriangles: 0,
+    trimmedTriangles: 0,
+    flippedEdges: 0,
+    shortEdges: 0,
   });
   assert.throws(() => (cloth.meshReport.pieces = 7), TypeError);
+});
+
+test("simplifyBelow collapses short edges, and the vertices follow their particles", () => {
+  // Two squares of 1 m whose middle vertex is 5 mm from that of the left border.
+  const positions = [0, 0, 0, 1, 0, 0, 0, 0.5, 0, 0.005, 0.5, 0, 1, 0.5, 0, 0, 1, 0, 1, 1, 0];
+  const indices = [0, 1, 3, 0, 3, 2, 1, 4, 3, 2, 3, 5, 3, 6, 5, 3, 4, 6];
+  const cloth = Cloth.mesh({ positions, indices, pinned: [3, 2], simplifyBelow: 0.01 });
+  const { collapsedEdges, collapsedTriangles, shortEdges, particles, keptTriangles, shortestEdge } = cloth.meshReport;
+  assert.deepEqual({ collapsedEdges, collapsedTriangles, shortEdges }, { collapsedEdges: 1, collapsedTriangles: 2, shortEdges: 0 });
+  assert.deepEqual({ particles, keptTriangles, shortestEdge }, { particles: 6, keptTriangles: 4, shortestEdge: 0.5 });
+  assert.deepEqual([...cloth.vertexParticles], [0, 1, 2, 2, 3, 4, 5]);
+  assert.deepEqual([...cloth.pinned], [2]);
+  const same = Cloth.restore(cloth.save());
+  for (const each of [cloth, same]) each.step(10);
+  assert.equal(same.stateHash(), cloth.stateHash());
 });
 
 test("vertices of a welded seam share particles and keep their uvs, until a cut splits them", () => {

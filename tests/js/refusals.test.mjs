@@ -75,6 +75,7 @@ refuses("indices", [[0, 1, 4], [0, 0, 1], [0, 0, 1, 1, 2, 1]], mesh("indices"));
 refuses("uvs", [...NOT_LISTS.slice(1), [0], [0, 0], Array(8).fill(NaN)], mesh("uvs"));
 refuses("pinned", [...NOT_LISTS.slice(1), [4], [-1], [0.5]], mesh("pinned"));
 refuses("weldDistance", [...NOT_NUMBERS, Infinity], mesh("weldDistance"));
+refuses("simplifyBelow", [...NOT_NUMBERS, -1, Infinity, 1.1], mesh("simplifyBelow"));
 refuses("desc.uv", [[0, 0]], mesh("uv"));
 
 // Settings, material, wind: every key, in a setter and in a descriptor

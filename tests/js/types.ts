@@ -89,6 +89,7 @@ const sheet: MeshDesc = {
   uvs: [0, 0, 1, 0, 0, 1],
   pinned: new Uint32Array([0]),
   weldDistance: -1,
+  simplifyBelow: 0.001,
   material: "flag-nylon",
 };
 using other = Cloth.mesh(sheet);

@@ -8,6 +8,7 @@ mod cutting;
 mod garments;
 mod mesh_quality;
 mod mesh_repair;
+mod simplify;
 mod skin_tears;
 mod skins;
 mod slivers;

@@ -54,6 +54,11 @@ const CLEAN: MeshReport = MeshReport {
     worst_aspect: 0.0,
     thin_triangles: 0,
     thinnest_triangle: 0,
+    collapsed_edges: 0,
+    collapsed_triangles: 0,
+    trimmed_triangles: 0,
+    flipped_edges: 0,
+    short_edges: 0,
 };
 
 #[test]

@@ -7,13 +7,13 @@ use muslin::{Cloth, ColliderDesc, Material, MeshDesc, Preset, Shape};
 
 /// Cells along each side, and size of a cell [m].
 const CELLS: u32 = 24;
-const CELL: f32 = 0.0072;
+pub(crate) const CELL: f32 = 0.0072;
 /// Distance of an added vertex from a corner or an edge of its triangle [m].
 const NEAR: f32 = 9.0e-5;
 
 /// A standing square of cotton in which every eleventh triangle has a vertex next to a corner, and
 /// every eleventh one next to the middle of an edge.
-fn slivered_sheet() -> MeshDesc {
+pub(crate) fn slivered_sheet() -> MeshDesc {
     let mut desc = MeshDesc { material: Material::preset(Preset::Cotton), ..MeshDesc::default() };
     for row in 0..=CELLS {
         for column in 0..=CELLS {

@@ -50,6 +50,12 @@ CASES: list[tuple[str, str | None, str, Call]] = [
         "be at most `len(positions)`",
         lambda c: Cloth.mesh(np.eye(3), [[0, 1, 2]], pinned=[0, 1, 2, 0]),
     ),
+    (
+        "BAD_VALUE",
+        "simplify_below",
+        "be at most the mean length of the edges",
+        lambda c: Cloth.mesh(np.eye(3), [[0, 1, 2]], simplify_below=1.5),
+    ),
     ("BAD_VALUE", "target", "be finite", lambda c: c.pin(0, (0, NAN, 0))),
     ("BAD_VALUE", "target", "hold 3 numbers: x, y, z", lambda c: c.pin(0, (0, 0))),
     ("BAD_VALUE", "target", "hold 3 numbers: x, y, z", lambda c: c.pin(0, "abc")),

@@ -141,6 +141,17 @@ def test_a_welded_mesh_has_several_vertices_per_particle() -> None:
     assert cloth.pinned.tolist() == [0]
 
 
+def test_short_edges_are_collapsed_and_their_vertices_share_a_particle() -> None:
+    positions, triangles = plane(5, 5, 0.1, (0, 0, 0))
+    positions[13] = positions[12] + (0.001, 0, 0)
+    cloth = muslin.Cloth.mesh(positions, triangles, simplify_below=0.02)
+    report = cloth.mesh_report
+    assert (report.collapsed_edges, report.collapsed_triangles, report.short_edges) == (1, 2, 0)
+    assert cloth.particle_count == 24 and report.shortest_edge > 0.02
+    assert len(cloth.positions) == 25
+    assert cloth.vertex_particles[12] == cloth.vertex_particles[13]
+
+
 def test_particle_counts_include_those_of_tears(cloth: muslin.Cloth) -> None:
     assert cloth.tear_edge(210, 211)
     assert cloth.particle_count == cloth.stats.particles == 401

@@ -72,6 +72,7 @@ fn program(header: &str) -> String {
     };
     let mut lines = Vec::new();
     let mut inside = None;
+    let mut is_movable = false;
     for line in header.lines().map(str::trim) {
         if let Some(name) = line.strip_prefix("typedef struct ").and_then(|l| l.strip_suffix(" {"))
         {
@@ -80,7 +81,7 @@ fn program(header: &str) -> String {
             } else {
                 format!("print(\"struct {name}\", 0, sizeof({name}));")
             });
-            inside = Some(name);
+            (inside, is_movable) = (Some(name), false);
         } else if line.starts_with('}') {
             inside = None;
         } else if let (Some(of), Some(field)) = (inside, line.strip_suffix(';')) {
@@ -89,7 +90,10 @@ fn program(header: &str) -> String {
             let size = format!("sizeof((({of} *)0)->{name})");
             // A field that grows moves the fields behind it, which the library allows.
             lines.push(if grows(field.split(' ').next().unwrap_or(field)) {
+                is_movable = true;
                 format!("puts(\"  {of}.{name}: grows\");")
+            } else if is_movable {
+                format!("puts(\"  {of}.{name}: behind fields that grow\");")
             } else {
                 format!("print(\"  {of}.{name}\", offsetof({of}, {name}), {size});")
             });

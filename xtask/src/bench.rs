@@ -18,15 +18,24 @@ const AVX2: &str = "avx2";
 /// Runs every case once and with small meshes, as a test.
 const TEST: &str = "--test";
 
+/// The cost of meshes in files; what follows it are arguments of its own.
+const MESHES: &str = "meshes";
+
 /// Prints the tables that are named; without names, all native tables and the one in node.
 pub fn run(arguments: &[String]) -> Result {
+    if let Some((MESHES, rest)) = arguments.split_first().map(|(first, rest)| (&**first, rest)) {
+        let is_test = rest.iter().any(|word| word == TEST);
+        let profile = if is_test { bits::TEST_PROFILE } else { "release" };
+        let build = ["run", "--quiet", "--package=muslin-meshes", "--profile", profile, "--"];
+        return shell::run(shell::cargo(&build).args(rest));
+    }
     let words: Vec<_> = arguments.iter().map(String::as_str).filter(|word| *word != "--").collect();
     let is_known =
         |word: &str| [NODE, PAGE, PEERS, AVX2, TEST].contains(&word) || NATIVE.contains(&word);
     if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
         return Err(Failure::new(format!(
             "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, \
-             receipt, crowd, node, page, peers, avx2 and --test"
+             receipt, crowd, node, page, peers, avx2 and --test, or meshes with files"
         )));
     }
     let options: &[&str] = if words.contains(&TEST) { &[TEST] } else { &[] };

@@ -92,7 +92,8 @@ cargo xtask site                    build the site with manual, references and p
   --base /PATH/                     for this folder of a host
   --serve                           serve it; --port N on this port
 cargo xtask bench [TABLE…]          time native code and node, or the tables that are named: kernels,
-                                    ticks, shreds, layers, scenes, receipt, node, page, peers
+                                    ticks, shreds, layers, scenes, receipt, crowd, node, page, peers
+  meshes [PATH…] [OPTION…]          hang the meshes of OBJ and glTF files, or generated ones
   --test                            once and with small meshes, as a test
 cargo xtask verify [SCENE…]         check the guarantees of cloth after every tick of many scenes
   --short                           of a few scenes, for a few ticks

@@ -200,6 +200,7 @@ impl MuslinCloth3D {
             uvs: source.uvs,
             pinned: source.pinned,
             weld_distance: self.weld_distance,
+            simplify_below: self.simplify_below,
             extra_particles,
             material: parameters.material.clone(),
             settings: parameters.settings.clone(),
@@ -234,6 +235,7 @@ impl MuslinCloth3D {
         Preview {
             grid: self.grid_size(),
             weld_distance: self.weld_distance,
+            simplify_below: self.simplify_below,
             extra_particles: self.extra_particles,
             pins: (self.pin_mode, self.pin_vertices.clone()),
             mesh: meshes.map(|mesh| mesh.map(|mesh| mesh.instance_id())),

@@ -44,6 +44,10 @@ pub struct MuslinCloth3D {
     /// along its seams; -1 joins nothing.
     #[export(range = (-1.0, 0.1, 0.0001, or_greater, suffix = "m"))]
     pub(crate) weld_distance: f32,
+    /// Edges of a mesh that are shorter than this are collapsed, which removes its slivers. 0
+    /// collapses none; at most the mean length of the edges.
+    #[export(range = (0.0, 0.1, 0.0001, or_greater, suffix = "m"))]
+    pub(crate) simplify_below: f32,
     /// Particles per row of a grid, at least 2.
     #[export(range = (2.0, 200.0, 1.0, or_greater))]
     #[init(val = 40)]

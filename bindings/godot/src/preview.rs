@@ -11,6 +11,7 @@ use godot::obj::InstanceId;
 pub struct Preview {
     pub grid: GridSize,
     pub weld_distance: f32,
+    pub simplify_below: f32,
     pub extra_particles: i64,
     pub pins: (PinMode, PackedInt32Array),
     pub mesh: [Option<InstanceId>; 2],

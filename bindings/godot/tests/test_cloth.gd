@@ -398,6 +398,7 @@ func test_refusals_name_property_and_rule_and_make_no_cloth() -> void:
 		[{width = 0.0}, "`width` must be above 0 and finite"],
 		[{height = NAN}, "`height` must be above 0 and finite"],
 		[{weld_distance = INF}, "`weld_distance` must be finite"],
+		[{simplify_below = -1.0}, "`simplify_below` must be finite and at least 0"],
 		[{extra_particles = -2}, "`extra_particles` must be at least -1"],
 		[{mesh = two}, "`mesh` must have exactly one surface, but has 2"],
 		[{mesh = lines}, "`mesh` must be made of triangles"],

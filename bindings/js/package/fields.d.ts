@@ -367,7 +367,8 @@ export interface GridDesc extends ClothDesc {
  * triangles without an area and duplicates are dropped; where more than two triangles share an
  * edge, the two that lie flattest stay joined and each other one gets an edge of its own; sheets
  * that touch only at a point are separated; triangles are turned so that the piece has a consistent
- * orientation, that of its majority. Vertices that no triangle uses become particles without mass
+ * orientation, that of its majority; short edges are collapsed if `simplifyBelow` is above 0.
+ * Vertices that no triangle uses become particles without mass
  * that do not move.
  *
  * A mesh that is a regular grid, with vertices and triangles in the order of `Cloth.grid`, is
@@ -376,7 +377,7 @@ export interface GridDesc extends ClothDesc {
 export interface MeshDesc extends ClothDesc {
   /**
    * Rest positions of the vertices, x y z x y z … [m]. At least 3 vertices. Vertex i is particle i,
-   * unless vertices are welded or split; `cloth.vertexParticles` maps them then.
+   * unless vertices are welded, split or collapsed; `cloth.vertexParticles` maps them then.
    */
   positions: Float32Array | Float64Array | readonly number[];
   /** Three vertices per triangle, counter-clockwise when seen from the front. */
@@ -396,6 +397,19 @@ export interface MeshDesc extends ClothDesc {
    * @defaultValue -1
    */
   weldDistance?: number;
+  /**
+   * Edges shorter than this are collapsed [m]; 0 collapses none. At most the mean length of the
+   * edges.
+   *
+   * One end of such an edge moves to the other, with its vertices, and the triangles at the edge are
+   * removed. Triangles that are lower than this get another diagonal where that makes them higher.
+   * Borders, seams of texture coordinates and their corners stay, a pinned vertex moves to pinned
+   * ones only, and the topology stays; `shortEdges` of `cloth.meshReport` counts the edges that are
+   * short nevertheless. A tenth to a third of the mean edge removes the slivers of most meshes.
+   *
+   * @defaultValue 0
+   */
+  simplifyBelow?: number;
 }
 
 /**

@@ -90,7 +90,7 @@ export const GRID = {
   extraParticles: UINT32,
 };
 
-export const MESH = { weldDistance: NUMBER, extraParticles: UINT32 };
+export const MESH = { weldDistance: NUMBER, extraParticles: UINT32, simplifyBelow: NUMBER };
 
 export const COLLIDER = {
   shape: CHOICE("plane", "sphere", "capsule", "box", "convex", "mesh", "heightfield"),

@@ -225,7 +225,8 @@ export interface Changes {
 /**
  * How a mesh was repaired when the cloth was created, what it is now, and its quality. The order of
  * the repairs is: weld vertices; drop degenerate and duplicate triangles; split edges and vertices
- * where more than one sheet meets; turn triangles that face the other way than their neighbours.
+ * where more than one sheet meets; turn triangles that face the other way than their neighbours;
+ * collapse short edges.
  */
 export interface MeshReport {
   /** Vertices in the descriptor. */
@@ -273,6 +274,19 @@ export interface MeshReport {
   thinTriangles: number;
   /** The triangle with the largest aspect ratio, by its number among the given ones. */
   thinnestTriangle: number;
+  /** Edges below `simplifyBelow` that were collapsed; each removed a particle. */
+  collapsedEdges: number;
+  /** Triangles that were removed with collapsed edges. */
+  collapsedTriangles: number;
+  /** Triangles that were removed at a border because they were lower than `simplifyBelow`. */
+  trimmedTriangles: number;
+  /** Edges that were flipped because a triangle was lower than `simplifyBelow`. */
+  flippedEdges: number;
+  /**
+   * Edges that are still shorter than `simplifyBelow`: to collapse them would change the topology, a
+   * border, a seam or a pin, or would turn a triangle over.
+   */
+  shortEdges: number;
   /**
    * A sentence for each property of the mesh that its author should know of: what was removed or
    * split, and what makes the cloth slow or uneven. Empty for a good mesh.

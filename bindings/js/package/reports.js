@@ -84,6 +84,11 @@ const REPORT = [
   "oneSidedPieces",
   "thinTriangles",
   "thinnestTriangle",
+  "collapsedEdges",
+  "collapsedTriangles",
+  "trimmedTriangles",
+  "flippedEdges",
+  "shortEdges",
   "isGrid",
   "shortestEdge",
   "meanEdge",
@@ -96,6 +101,7 @@ const WARNINGS = [
   ["splitEdges", "edge was", "edges were", "split: more than two triangles met there"],
   ["oneSidedPieces", "piece has", "pieces have", "one side only"],
   ["unusedVertices", "vertex is", "vertices are", "in no triangle"],
+  ["shortEdges", "edge is", "edges are", "shorter than `simplifyBelow`"],
   ["thinTriangles", "triangle has", "triangles have", "a height under a hundredth of the longest edge"],
 ];
 

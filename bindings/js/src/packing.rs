@@ -220,13 +220,19 @@ pub(crate) fn pack_grid(desc: &GridDesc) -> Vec<f64> {
 
 pub(crate) fn unpack_mesh(list: &[f64]) -> MeshDesc {
     let mut list = Reader::new(list);
-    MeshDesc { weld_distance: list.number(), extra_particles: list.count(), ..MeshDesc::default() }
+    MeshDesc {
+        weld_distance: list.number(),
+        extra_particles: list.count(),
+        simplify_below: list.number(),
+        ..MeshDesc::default()
+    }
 }
 
 pub(crate) fn pack_mesh(desc: &MeshDesc) -> Vec<f64> {
     let mut list = Writer::default();
     list.number(desc.weld_distance);
     list.count(desc.extra_particles);
+    list.number(desc.simplify_below);
     list.0
 }
 

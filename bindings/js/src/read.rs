@@ -96,6 +96,11 @@ impl RawCloth {
             report.one_sided_pieces,
             report.thin_triangles,
             report.thinnest_triangle,
+            report.collapsed_edges,
+            report.collapsed_triangles,
+            report.trimmed_triangles,
+            report.flipped_edges,
+            report.short_edges,
             u32::from(report.is_grid),
         ]);
         list.numbers(&[report.shortest_edge, report.mean_edge, report.worst_aspect]);

@@ -1,7 +1,7 @@
 //! Mesh repair: from any triangle soup to a mesh that can be simulated as cloth.
 //!
 //! ```text
-//! weld ─▶ remove degenerate ─▶ split non-manifold ─▶ orient
+//! weld ─▶ remove degenerate ─▶ split non-manifold ─▶ orient ─▶ simplify
 //! ```
 //! Reads positions and indices of a host; writes a `RepairedMesh` and a `MeshReport` that counts
 //! each repair.
@@ -11,14 +11,16 @@
 
 mod orient;
 mod remove_degenerate;
+mod simplify;
 mod split_non_manifold;
 mod weld;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check};
 use crate::mesh::report::MeshReport;
 use crate::mesh::seams::Seams;
 use crate::mesh::{Corner, Mesh};
 use glam::Vec3;
+pub(crate) use simplify::Simplify;
 
 /// Result of a repair.
 #[derive(Clone, Debug)]
@@ -39,11 +41,13 @@ pub(crate) struct RepairedMesh {
 ///
 /// # Errors
 /// `BadIndex` for an index out of range. `BadMesh` for a triangle whose area is not finite, or if
-/// no triangle remains. The errors of `capacity`.
+/// no triangle remains. `BadValue` if `simplify.below` exceeds the mean length of the edges. The
+/// errors of `capacity`.
 pub(crate) fn repair(
     positions: &[Vec3],
     indices: &[u32],
     weld_distance: f32,
+    simplify: &Simplify<'_>,
     capacity: impl Fn(usize) -> Result<usize>,
 ) -> Result<RepairedMesh> {
     let (given, _) = indices.as_chunks::<3>();
@@ -52,7 +56,7 @@ pub(crate) fn repair(
         return Err(Error::BadIndex { field: "indices", index: *index, count });
     }
     let welded = weld::weld(positions, given, weld_distance);
-    let kept = remove_degenerate::remove_degenerate(positions, given, &welded)?;
+    let mut kept = remove_degenerate::remove_degenerate(positions, given, &welded)?;
     let (mut source_vertices, particles) = number_particles(&welded);
     let welded_count = source_vertices.len();
     let mut vertices: Vec<[u32; 3]> = kept.triangles.iter().map(|at| given[*at as usize]).collect();
@@ -82,14 +86,8 @@ pub(crate) fn repair(
         one_sided_pieces: orientation.non_orientable,
         ..MeshReport::default()
     };
-    let given_number = |triangle: u32| kept.triangles[triangle as usize];
-    report.measure_quality(
-        &mesh,
-        |p| positions[source_vertices[p as usize] as usize],
-        given_number,
-    );
     let is_plain = source_vertices.len() == positions.len() && manifold.copies.is_empty();
-    let seams = (!is_plain).then(|| {
+    let mut seams = (!is_plain).then(|| {
         for (corners, _) in
             vertices.iter_mut().zip(&orientation.flipped).filter(|(_, flipped)| **flipped)
         {
@@ -105,7 +103,42 @@ pub(crate) fn repair(
         }
         seams
     });
+    measure(&mut report, &mesh, positions, &source_vertices, &kept.triangles);
+    let may_simplify = simplify.below <= report.mean_edge;
+    check(may_simplify, "simplify_below", "be at most the mean length of the edges")?;
+    if simplify.below > 0.0 {
+        let mut all = seams.clone().unwrap_or_else(|| {
+            Seams::new(mesh.triangles.clone(), (0..mesh.vertex_count() as u32).collect())
+        });
+        let x = source_vertices.iter().map(|vertex| positions[*vertex as usize]).collect();
+        let mut surface = simplify::Surface::new(&mesh, x, &all, simplify);
+        if surface.simplify(&mut report) {
+            let (triangles, vertices, particles) =
+                surface.finish(&mut source_vertices, &mut kept.triangles);
+            let count = source_vertices.len();
+            let removed = report.kept_triangles - triangles.len() as u32;
+            report.collapsed_triangles = removed - report.trimmed_triangles;
+            (report.particles, report.kept_triangles) = (count as u32, triangles.len() as u32);
+            mesh = Mesh::new(triangles, count, capacity(count)?);
+            all.replace(vertices, particles);
+            seams = Some(all);
+            measure(&mut report, &mesh, positions, &source_vertices, &kept.triangles);
+        }
+    }
     Ok(RepairedMesh { mesh, source_vertices, seams, report })
+}
+
+/// Measures the quality of a mesh. `given[t]` is the number of triangle t in the given list.
+#[inline(never)]
+fn measure(
+    report: &mut MeshReport,
+    mesh: &Mesh,
+    positions: &[Vec3],
+    source_vertices: &[u32],
+    given: &[u32],
+) {
+    let position = |p: u32| positions[source_vertices[p as usize] as usize];
+    report.measure_quality(mesh, position, |triangle| given[triangle as usize]);
 }
 
 /// Returns the new number of a corner: flipping its triangle swaps the second and the third.

@@ -14,7 +14,7 @@
 //!
 //! Invariant of the result: at most two triangles per edge, one fan per particle.
 
-use crate::math::sort::{sort_by, sort_groups};
+use crate::math::sort::{sort_groups, sort_measured};
 use crate::mesh::{Corner, next_corner, prev_corner, triangle_of};
 use glam::{DVec3, Vec3};
 
@@ -120,18 +120,17 @@ fn pair_flattest(
         (inward - along * inward.dot(along)).normalize_or_zero()
     };
     let directions: Vec<DVec3> = sides.iter().map(inward_direction).collect();
-    let mut dihedral_cosines: Vec<(f64, usize, usize)> = Vec::new();
+    let mut dihedral_cosines: Vec<(f64, u32, u32)> = Vec::new();
     for one in 0..sides.len() {
         dihedral_cosines.extend(
             (one + 1..sides.len())
-                .map(|other| (directions[one].dot(directions[other]), one, other)),
+                .map(|other| (directions[one].dot(directions[other]), one as u32, other as u32)),
         );
     }
-    sort_by(&mut dihedral_cosines, |p, q| {
-        p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)).then(p.2.cmp(&q.2))
-    });
+    sort_measured(&mut dihedral_cosines);
     let mut is_free = vec![true; sides.len()];
     for (_, one, other) in dihedral_cosines {
+        let (one, other) = (one as usize, other as usize);
         if is_free[one] && is_free[other] {
             (is_free[one], is_free[other]) = (false, false);
             pairs.push([sides[one], sides[other]]);

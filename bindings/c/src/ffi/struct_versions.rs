@@ -44,7 +44,7 @@ versioned_structs! {
     MuslinEvent: source[4], count[4], "muslin_event_init";
     MuslinHit: normal[12], normal[12], "muslin_hit_init";
     MuslinView: state_revision[4], particles[size_of::<*const u32>()], "muslin_view_init";
-    MuslinMeshReport: is_grid[4], thinnest_triangle[4], "muslin_mesh_report_init";
+    MuslinMeshReport: is_grid[4], short_edges[4], "muslin_mesh_report_init";
     MuslinChanges: index_count[4], index_count[4], "muslin_changes_init";
     MuslinStream: size[size_of::<usize>()], size[size_of::<usize>()], "muslin_stream_init";
     MuslinSkinDesc: reserved[4], reserved[4], "muslin_skin_desc_init";
@@ -53,16 +53,18 @@ versioned_structs! {
     MuslinStats: seconds[4 * MUSLIN_STAGE_SLOTS], crossings[4], "muslin_stats_init";
 }
 
-/// Implements [`NestedDesc`] for each descriptor that ends in a material and settings.
+/// Implements [`NestedDesc`] for each descriptor that has a material, settings, and bytes behind
+/// them.
 macro_rules! nested_descs {
-    ($($name:ident, $init:literal;)*) => {$(
+    ($($name:ident, $tail:expr, $init:literal;)*) => {$(
         // SAFETY: the definition is `repr(C)`, starts with `struct_size` and holds only numbers and
-        // pointers before the material; the assertions below show where material and settings are
-        // and how they are aligned.
+        // pointers before the material and only numbers behind the settings; the assertions below
+        // show where material, settings and tail are and how they are aligned.
         unsafe impl NestedDesc for $name {
             type Material = MuslinMaterial;
             type Settings = MuslinSettings;
             const HEAD: usize = offset_of!($name, material);
+            const TAIL: usize = $tail;
             const INIT: &'static str = $init;
             fn set_parts(&mut self, material: MuslinMaterial, settings: MuslinSettings) {
                 (self.material, self.settings) = (material, settings);
@@ -71,12 +73,21 @@ macro_rules! nested_descs {
         const _: () = assert!(
             offset_of!($name, settings) == offset_of!($name, material) + size_of::<MuslinMaterial>()
         );
+        const _: () = assert!(
+            (offset_of!($name, settings) + size_of::<MuslinSettings>() + $tail)
+                .next_multiple_of(align_of::<$name>()) == size_of::<$name>()
+        );
     )*};
 }
 
 nested_descs! {
-    MuslinGridDesc, "muslin_grid_desc_init";
-    MuslinMeshDesc, "muslin_mesh_desc_init";
+    MuslinGridDesc, 0, "muslin_grid_desc_init";
+    // `reserved` takes the bytes that may be padding in versions without `simplify_below`.
+    MuslinMeshDesc, 8, "muslin_mesh_desc_init";
 }
 
+const _: () = assert!(
+    offset_of!(MuslinMeshDesc, simplify_below) + 4
+        == offset_of!(MuslinMeshDesc, settings) + size_of::<MuslinSettings>() + 8
+);
 const _: () = assert!(align_of::<MuslinMaterial>() == 4 && align_of::<MuslinSettings>() == 4);

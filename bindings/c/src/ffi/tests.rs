@@ -57,6 +57,7 @@ unsafe impl<const M: usize, const S: usize> NestedDesc for Desc<M, S> {
     type Material = Material<M>;
     type Settings = Material<S>;
     const HEAD: usize = offset_of!(Desc<0, 0>, material);
+    const TAIL: usize = 0;
     const INIT: &'static str = "desc_init";
     fn set_parts(&mut self, material: Material<M>, settings: Material<S>) {
         (self.material, self.settings) = (material, settings);

@@ -102,12 +102,13 @@ pub unsafe fn read_struct_at<T: VersionedStruct>(
     }
 }
 
-/// A descriptor that ends in a material and settings, each with a size of its own. The caller's
-/// version of the material decides where its settings start.
+/// A descriptor with a material and settings, each with a size of its own. The caller's version of
+/// the material decides where its settings start, and that of the settings where the tail starts.
 ///
 /// # Safety
 /// The struct is `repr(C)` and starts with a `u32`; its material is `HEAD` bytes from its start,
-/// its settings follow directly, both aligned to 4; before them it holds only numbers and pointers.
+/// its settings follow directly, then `TAIL` bytes, all aligned to 4; before the material it holds
+/// only numbers and pointers, and behind the settings only numbers.
 pub unsafe trait NestedDesc: Copy + Default {
     /// The material.
     type Material: VersionedStruct;
@@ -115,6 +116,9 @@ pub unsafe trait NestedDesc: Copy + Default {
     type Settings: VersionedStruct;
     /// Bytes before the material. They are the same in all versions.
     const HEAD: usize;
+    /// Bytes of the fields behind the settings: 0, or at least the alignment, so that padding at the
+    /// end of a struct without them is not taken for them.
+    const TAIL: usize;
     /// Name of the header's `init` function.
     const INIT: &'static str;
     /// Sets material and settings.
@@ -156,14 +160,14 @@ pub unsafe fn read_desc<T: NestedDesc>(name: &str, at: *const T) -> Result<T> {
         check_is_inside(end, struct_size)?;
         let (material, _) = read_struct_at("material.struct_size", at.add(material_at))?;
         let (settings, _) = read_struct_at("settings.struct_size", at.add(settings_at))?;
+        let tail = if struct_size - end >= T::TAIL { T::TAIL } else { 0 };
         // Padding that rounds the size up to the alignment may have any value.
-        check_unknown_bytes_are_zero(
-            "struct_size",
-            at,
-            end.next_multiple_of(align_of::<T>()),
-            struct_size,
-        )?;
-        ptr::copy_nonoverlapping(at, (&raw mut desc).cast::<u8>(), T::HEAD);
+        let known = (end + tail).next_multiple_of(align_of::<T>());
+        check_unknown_bytes_are_zero("struct_size", at, known, struct_size)?;
+        let ours = (&raw mut desc).cast::<u8>();
+        ptr::copy_nonoverlapping(at, ours, T::HEAD);
+        let our_tail = T::HEAD + size_of::<T::Material>() + size_of::<T::Settings>();
+        ptr::copy_nonoverlapping(at.add(end), ours.add(our_tail), tail);
         desc.set_parts(material, settings);
     }
     Ok(desc)

@@ -17,7 +17,8 @@ use muslin_core::MeshDesc;
 /// - where more than two triangles share an edge, the flattest pair stays joined and the others get
 ///   an edge of their own;
 /// - sheets that touch in a single vertex are separated there;
-/// - within each piece, triangles are turned to face as most of them do.
+/// - within each piece, triangles are turned to face as most of them do;
+/// - if `simplify_below` is above 0, short edges are collapsed.
 ///
 /// Vertices that no triangle uses stay where they are.
 ///
@@ -32,8 +33,8 @@ use muslin_core::MeshDesc;
 pub struct MuslinMeshDesc {
     /// Set by muslin_mesh_desc_init.
     pub struct_size: u32,
-    /// Rest positions of the vertices [m], 3 numbers per vertex. If nothing is welded or split,
-    /// vertex i is particle i; otherwise see `particles` of MuslinView.
+    /// Rest positions of the vertices [m], 3 numbers per vertex. If nothing is welded, split
+    /// or collapsed, vertex i is particle i; otherwise see `particles` of MuslinView.
     pub positions: *const f32,
     /// Distance between the starts of consecutive positions [bytes]; 0 means 12. Default 0. A
     /// multiple of 4.
@@ -64,6 +65,18 @@ pub struct MuslinMeshDesc {
     pub material: MuslinMaterial,
     /// Settings.
     pub settings: MuslinSettings,
+    /// Not used. Default 0.
+    pub reserved: u32,
+    /// Edges shorter than this are collapsed [m]. Default 0: none. At most the mean length of the
+    /// edges.
+    ///
+    /// One end of such an edge moves to the other, with its vertices, and the triangles at the edge
+    /// are removed. Triangles that are lower than this get another diagonal where that makes them
+    /// higher. Borders, seams of texture coordinates and their corners stay, a pinned vertex moves
+    /// to pinned ones only, and the topology stays; `short_edges` of MuslinMeshReport counts the
+    /// edges that are short nevertheless. A tenth to a third of the mean edge removes the slivers
+    /// of most meshes.
+    pub simplify_below: f32,
 }
 
 impl Default for MuslinMeshDesc {
@@ -82,6 +95,8 @@ impl Default for MuslinMeshDesc {
             extra_particles: MUSLIN_AS_MANY_AGAIN,
             material: MuslinMaterial::default(),
             settings: MuslinSettings::default(),
+            reserved: 0,
+            simplify_below: 0.0,
         }
     }
 }
@@ -128,6 +143,7 @@ impl MuslinMeshDesc {
             extra_particles: self.extra_particles,
             material: self.material.into(),
             settings: self.settings.try_into()?,
+            simplify_below: self.simplify_below,
         })
     }
 }

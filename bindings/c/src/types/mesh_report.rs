@@ -7,7 +7,7 @@ use muslin_core::MeshReport;
 ///
 /// Repairs are made in this order: vertices are welded; triangles without an area and repeated
 /// triangles are dropped; edges and vertices where several sheets meet are split; triangles that
-/// face the other way are turned.
+/// face the other way are turned; short edges are collapsed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MuslinMeshReport {
@@ -54,6 +54,18 @@ pub struct MuslinMeshReport {
     pub thin_triangles: u32,
     /// The triangle with the largest aspect ratio, by its number among the given ones.
     pub thinnest_triangle: u32,
+    /// Number of edges below `simplify_below` that were collapsed; each removed a particle.
+    pub collapsed_edges: u32,
+    /// Number of triangles that were removed with collapsed edges.
+    pub collapsed_triangles: u32,
+    /// Number of triangles that were removed at a border because they were lower than
+    /// `simplify_below`.
+    pub trimmed_triangles: u32,
+    /// Number of edges that were flipped because a triangle was lower than `simplify_below`.
+    pub flipped_edges: u32,
+    /// Number of edges that are still shorter than `simplify_below`: to collapse them would change
+    /// the topology, a border, a seam or a pin, or would turn a triangle over.
+    pub short_edges: u32,
 }
 
 impl From<&MeshReport> for MuslinMeshReport {
@@ -79,6 +91,11 @@ impl From<&MeshReport> for MuslinMeshReport {
             worst_aspect: report.worst_aspect,
             thin_triangles: report.thin_triangles,
             thinnest_triangle: report.thinnest_triangle,
+            collapsed_edges: report.collapsed_edges,
+            collapsed_triangles: report.collapsed_triangles,
+            trimmed_triangles: report.trimmed_triangles,
+            flipped_edges: report.flipped_edges,
+            short_edges: report.short_edges,
         }
     }
 }

@@ -117,6 +117,7 @@ class Cloth(Parameters, Particles, Pins, Topology, Colliders, Outputs):
         uvs: ArrayLike | None = None,
         pinned: ArrayLike | None = None,
         weld_distance: float | None = None,
+        simplify_below: float = 0.0,
         extra_particles: int | None = None,
         material: MaterialLike | None = None,
         settings: Settings | None = None,
@@ -131,6 +132,12 @@ class Cloth(Parameters, Particles, Pins, Topology, Colliders, Outputs):
         - `weld_distance`: vertices at most this far apart share one particle [m]; 0 welds vertices
           at exactly the same position, None welds nothing. Choose a value well below the shortest
           edge.
+        - `simplify_below`: edges shorter than this are collapsed [m]; 0 collapses none. At most the
+          mean length of the edges. One end of such an edge moves to the other, with its vertices;
+          triangles that are lower than this get another diagonal where that makes them higher.
+          Borders, seams of texture coordinates and their corners stay, and so does the topology;
+          `short_edges` of `mesh_report` counts the edges that are short nevertheless. A tenth to a
+          third of the mean edge removes the slivers of most meshes.
         - `extra_particles`, `material`, `settings`: as in `grid`.
 
         Vertices that no triangle uses stay where they are. A mesh that is a regular grid, with
@@ -149,6 +156,7 @@ class Cloth(Parameters, Particles, Pins, Topology, Colliders, Outputs):
             desc.pinned, desc.pinned_count = held.ctypes.data, len(held)
         if weld_distance is not None:
             desc.weld_distance = to_number(weld_distance, "weld_distance")
+        desc.simplify_below = to_number(simplify_below, "simplify_below")
         _set_common(desc, extra_particles, material, settings)
         handle = MuslinCloth()
         lib.muslin_cloth_create_mesh(desc, handle)

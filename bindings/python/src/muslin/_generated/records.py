@@ -306,7 +306,7 @@ class MeshReport(Record):
 
     Repairs are made in this order: vertices are welded; triangles without an area and repeated
     triangles are dropped; edges and vertices where several sheets meet are split; triangles that
-    face the other way are turned.
+    face the other way are turned; short edges are collapsed.
     """
 
     _struct: ClassVar = MuslinMeshReport
@@ -316,7 +316,9 @@ class MeshReport(Record):
         "turned_triangles": WHOLE, "split_edges": WHOLE, "split_vertices": WHOLE,
         "unused_vertices": WHOLE, "pieces": WHOLE, "one_sided_pieces": WHOLE, "is_grid": FLAG,
         "shortest_edge": NUMBER, "mean_edge": NUMBER, "worst_aspect": NUMBER,
-        "thin_triangles": WHOLE, "thinnest_triangle": WHOLE,
+        "thin_triangles": WHOLE, "thinnest_triangle": WHOLE, "collapsed_edges": WHOLE,
+        "collapsed_triangles": WHOLE, "trimmed_triangles": WHOLE, "flipped_edges": WHOLE,
+        "short_edges": WHOLE,
     }
 
     vertices: int
@@ -364,6 +366,20 @@ class MeshReport(Record):
     """Number of thin triangles: those with an aspect ratio above 100."""
     thinnest_triangle: int
     """The triangle with the largest aspect ratio, by its number among the given ones."""
+    collapsed_edges: int
+    """Number of edges below `simplify_below` that were collapsed; each removed a particle."""
+    collapsed_triangles: int
+    """Number of triangles that were removed with collapsed edges."""
+    trimmed_triangles: int
+    """Number of triangles that were removed at a border because they were lower than
+    `simplify_below`.
+    """
+    flipped_edges: int
+    """Number of edges that were flipped because a triangle was lower than `simplify_below`."""
+    short_edges: int
+    """Number of edges that are still shorter than `simplify_below`: to collapse them would change
+    the topology, a border, a seam or a pin, or would turn a triangle over.
+    """
 
 
 @dataclass(frozen=True, kw_only=True)

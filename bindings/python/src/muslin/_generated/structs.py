@@ -112,12 +112,14 @@ class MuslinMeshDesc(Structure):
     extra_particles: int
     material: MuslinMaterial
     settings: MuslinSettings
+    reserved: int
+    simplify_below: float
     _fields_ = [
         ("struct_size", c_uint32), ("positions", c_void_p), ("position_stride", c_uint32),
         ("vertex_count", c_uint32), ("indices", c_void_p), ("index_count", c_uint32),
         ("uvs", c_void_p), ("pinned", c_void_p), ("pinned_count", c_uint32),
         ("weld_distance", c_float), ("extra_particles", c_uint32), ("material", MuslinMaterial),
-        ("settings", MuslinSettings),
+        ("settings", MuslinSettings), ("reserved", c_uint32), ("simplify_below", c_float),
     ]
 
 
@@ -284,6 +286,11 @@ class MuslinMeshReport(Structure):
     worst_aspect: float
     thin_triangles: int
     thinnest_triangle: int
+    collapsed_edges: int
+    collapsed_triangles: int
+    trimmed_triangles: int
+    flipped_edges: int
+    short_edges: int
     _fields_ = [
         ("struct_size", c_uint32), ("vertices", c_uint32), ("triangles", c_uint32),
         ("particles", c_uint32), ("kept_triangles", c_uint32), ("welded_vertices", c_uint32),
@@ -292,6 +299,8 @@ class MuslinMeshReport(Structure):
         ("unused_vertices", c_uint32), ("pieces", c_uint32), ("one_sided_pieces", c_uint32),
         ("is_grid", c_uint32), ("shortest_edge", c_float), ("mean_edge", c_float),
         ("worst_aspect", c_float), ("thin_triangles", c_uint32), ("thinnest_triangle", c_uint32),
+        ("collapsed_edges", c_uint32), ("collapsed_triangles", c_uint32),
+        ("trimmed_triangles", c_uint32), ("flipped_edges", c_uint32), ("short_edges", c_uint32),
     ]
 
 
