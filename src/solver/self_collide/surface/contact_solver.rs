@@ -38,10 +38,6 @@ use glam::Vec3;
 /// Gauss–Seidel sweeps per substep, in alternating directions.
 const SWEEPS: usize = 6;
 
-/// A new contact is an impact if the relative speed of its sides exceeds that of a body after this
-/// many substeps of free fall.
-const IMPACT_SUBSTEPS: f32 = 2.0;
-
 /// Pairs farther apart than this, at the start and now, do not enter the solver [gaps]: for
 /// vertex–triangle, then for edge–edge, which matters little between flat layers.
 pub(crate) const ACTIVE_DISTANCE: [f32; 2] = [1.1, 1.02];
@@ -170,6 +166,10 @@ pub(crate) fn count_support(
 }
 
 /// Fills `active` with the contacts that are near enough to need the solver.
+///
+/// A pair of edges whose closest point is an end of an edge is left out: the contact of that vertex
+/// with a triangle at the other edge is at least as near. Its normal would be tilted, where the end
+/// lies beside the other edge, and a stack of sheets would drift and shake.
 pub(crate) fn collect_active(
     contacts: &[Contact],
     active: &mut Vec<ActiveContact>,
@@ -179,6 +179,9 @@ pub(crate) fn collect_active(
 ) {
     active.clear();
     for (i, contact) in contacts.iter().enumerate() {
+        if contact.is_at_end_of_edge() {
+            continue;
+        }
         let near = contact.gap * ACTIVE_DISTANCE[contact.kind as usize - 1];
         let before = distance_along_normal(start, contact);
         if min(before, distance_along_normal(x, contact)) < near {
@@ -330,20 +333,12 @@ pub(crate) fn correct_penetration(
     }
 }
 
-/// Fills `impacts` with the indices of active contacts that are impacts: new contacts whose sides
-/// have a large relative velocity. `fall_speed` is the speed that gravity adds in a substep [m/s].
-pub(crate) fn detect_impacts(
-    contacts: &[Contact],
-    active: &[ActiveContact],
-    v: &Columns,
-    fall_speed: f32,
-    impacts: &mut Vec<u32>,
-) {
-    let fast = (IMPACT_SUBSTEPS * fall_speed) * (IMPACT_SUBSTEPS * fall_speed);
-    let is_impact = |state: &ActiveContact| {
-        let relative = || relative_velocity(&contacts[state.contact as usize], v);
-        state.normal_impulse > 0.0 && state.is_new && relative().length_squared() > fast
-    };
+/// Fills `impacts` with the indices of active contacts that are impacts: new contacts that push.
+///
+/// Slow ones count too. The velocity by BDF2 of a side that is stopped in one substep is half of
+/// that before, backwards, so a stack of sheets would bounce for ever.
+pub(crate) fn detect_impacts(active: &[ActiveContact], impacts: &mut Vec<u32>) {
+    let is_impact = |state: &ActiveContact| state.normal_impulse > 0.0 && state.is_new;
     impacts.clear();
     impacts.extend((0..).zip(active).filter(|(_, state)| is_impact(state)).map(|(i, _)| i));
 }
