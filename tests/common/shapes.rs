@@ -221,15 +221,47 @@ pub fn swung(body: &[Vec3], angle: f32) -> Vec<Vec3> {
     body.iter().map(turned).collect()
 }
 
-/// How deep a point lies in a tube [m], 0 outside: the smallest depth behind the triangles around its
-/// nearest vertex.
+/// How deep a point lies in a tube that does not intersect itself [m], 0 outside: the distance of the
+/// nearest point of its surface, if `x` is behind it.
+///
+/// The normals of the triangles that share this point count by their angles there (Bærentzen and
+/// Aanæs, "Signed distance computation using the angle weighted pseudonormal", 2005).
 pub fn depth_in_tube(tube: &[Vec3], indices: &[u32], x: Vec3) -> f32 {
-    let distance = |i: &usize| tube[*i].distance_squared(x);
-    let nearest = (0..tube.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
-    let near = indices.chunks(3).filter(|corners| corners.contains(&(nearest as u32)));
-    let height = |corners: &[u32]| {
-        let [a, b, c] = [0, 1, 2].map(|k| tube[corners[k] as usize]);
-        (x - a).dot((b - a).cross(c - a).normalize())
+    let corners = |ids: &[u32]| [0, 1, 2].map(|k| tube[ids[k] as usize]);
+    let nearest: Vec<(f32, f32)> =
+        indices.chunks(3).map(|ids| distance_and_side(corners(ids), x)).collect();
+    let distance = nearest.iter().map(|(distance, _)| *distance).fold(f32::INFINITY, f32::min);
+    let tied = nearest.iter().filter(|(other, _)| *other <= distance + 1.0e-6);
+    if tied.map(|(_, side)| side).sum::<f32>() < 0.0 { distance } else { 0.0 }
+}
+
+/// Distance of `x` from a triangle [m], and on which side of it `x` is, times the angle of the
+/// triangle at the nearest point.
+fn distance_and_side([a, b, c]: [Vec3; 3], x: Vec3) -> (f32, f32) {
+    let normal = (b - a).cross(c - a).normalize();
+    let behind = |p: Vec3, q: Vec3| (q - p).cross(normal).dot(x - p) > 0.0;
+    let edges = [[a, b], [b, c], [c, a]];
+    if edges.iter().all(|[p, q]| !behind(*p, *q)) {
+        let height = normal.dot(x - a);
+        return (height.abs(), TAU * height);
+    }
+    let on_edge = |[p, q]: [Vec3; 2]| {
+        let share = (x - p).dot(q - p) / (q - p).length_squared();
+        (p + (q - p) * share.clamp(0.0, 1.0), share)
     };
-    near.map(|corners| -height(corners)).fold(f32::INFINITY, f32::min).max(0.0)
+    let each = edges.map(on_edge);
+    let at = (0..3).min_by(|i, j| each[*i].0.distance(x).total_cmp(&each[*j].0.distance(x)));
+    let at = at.unwrap();
+    let (point, share) = each[at];
+    let corner = |k: usize| {
+        let [p, q] = edges[k % 3];
+        let r = edges[(k + 2) % 3][0];
+        (q - p).angle_between(r - p)
+    };
+    let angle = match share {
+        share if share <= 0.0 => corner(at),
+        share if share >= 1.0 => corner(at + 1),
+        _ => 0.5 * TAU,
+    };
+    (point.distance(x), angle * normal.dot(x - point))
 }

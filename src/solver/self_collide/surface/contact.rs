@@ -318,6 +318,12 @@ impl Contact {
         };
     }
 
+    /// Whether this is a pair of edges of which an end is a closest point.
+    #[inline(always)]
+    pub(crate) fn is_at_end_of_edge(&self) -> bool {
+        self.kind == EDGE_EDGE && self.weights.contains(&0.0)
+    }
+
     /// Makes the contact solver and the non-crossing pass ignore the contact.
     pub(crate) fn disable(&mut self) {
         self.gap = f32::NEG_INFINITY;

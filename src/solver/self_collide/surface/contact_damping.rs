@@ -18,7 +18,6 @@ use crate::solver::world::World;
 /// and intersections do not deepen.
 pub(crate) fn damp_velocities(world: &mut World) {
     let h = world.regular_scheme().h;
-    let fall_speed = world.settings.gravity.length() * h;
     let Some(mut surface) = world.surface_collision.take() else {
         return;
     };
@@ -29,7 +28,7 @@ pub(crate) fn damp_velocities(world: &mut World) {
     let is_free = world.scratch.contacts.collider_contacts.is_empty()
         && !interleaved::has_fixed_particle(&motion.start);
     let p = &mut world.particles;
-    contact_solver::detect_impacts(contacts, active, &p.v, fall_speed, open);
+    contact_solver::detect_impacts(active, open);
     for columns in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
         contact_solver::remove_impact_velocities(contacts, active, open, columns);
         intersections.remove_deepening_velocities(&p.w, columns);

@@ -38,10 +38,6 @@ use glam::Vec3;
 /// Gauss–Seidel sweeps per substep, in alternating directions.
 const SWEEPS: usize = 6;
 
-/// A new contact is an impact if the relative speed of its sides exceeds that of a body after this
-/// many substeps of free fall.
-const IMPACT_SUBSTEPS: f32 = 2.0;
-
 /// Pairs farther apart than this, at the start and now, do not enter the solver [gaps]: for
 /// vertex–triangle, then for edge–edge, which matters little between flat layers.
 pub(crate) const ACTIVE_DISTANCE: [f32; 2] = [1.1, 1.02];
@@ -51,7 +47,11 @@ pub(crate) const ACTIVE_DISTANCE: [f32; 2] = [1.1, 1.02];
 const CORRECTION_SHARE: f32 = 0.05;
 const MAX_CORRECTION_SPEED: f32 = 0.25;
 
-/// Time constant of the damping at contacts [s].
+/// Time constants of the damping at contacts [s]: along the normal, and of all other motion.
+///
+/// Contact forces that carry over to the next substep act like springs that BDF2 does not damp. With
+/// 0.01 s along the normal a stack of six sheets goes on to breathe at 10 mm/s.
+const NORMAL_DAMPING_TIME: f32 = 0.002;
 const DAMPING_TIME: f32 = 0.01;
 
 /// Lower bound of the inverse effective mass, as a share of the largest inverse mass in the
@@ -170,6 +170,10 @@ pub(crate) fn count_support(
 }
 
 /// Fills `active` with the contacts that are near enough to need the solver.
+///
+/// A pair of edges whose closest point is an end of an edge is left out: the contact of that vertex
+/// with a triangle at the other edge is at least as near. Its normal would be tilted, where the end
+/// lies beside the other edge, and a stack of sheets would drift and shake.
 pub(crate) fn collect_active(
     contacts: &[Contact],
     active: &mut Vec<ActiveContact>,
@@ -179,6 +183,9 @@ pub(crate) fn collect_active(
 ) {
     active.clear();
     for (i, contact) in contacts.iter().enumerate() {
+        if contact.is_at_end_of_edge() {
+            continue;
+        }
         let near = contact.gap * ACTIVE_DISTANCE[contact.kind as usize - 1];
         let before = distance_along_normal(start, contact);
         if min(before, distance_along_normal(x, contact)) < near {
@@ -330,20 +337,12 @@ pub(crate) fn correct_penetration(
     }
 }
 
-/// Fills `impacts` with the indices of active contacts that are impacts: new contacts whose sides
-/// have a large relative velocity. `fall_speed` is the speed that gravity adds in a substep [m/s].
-pub(crate) fn detect_impacts(
-    contacts: &[Contact],
-    active: &[ActiveContact],
-    v: &Columns,
-    fall_speed: f32,
-    impacts: &mut Vec<u32>,
-) {
-    let fast = (IMPACT_SUBSTEPS * fall_speed) * (IMPACT_SUBSTEPS * fall_speed);
-    let is_impact = |state: &ActiveContact| {
-        let relative = || relative_velocity(&contacts[state.contact as usize], v);
-        state.normal_impulse > 0.0 && state.is_new && relative().length_squared() > fast
-    };
+/// Fills `impacts` with the indices of active contacts that are impacts: new contacts that push.
+///
+/// Slow ones count too. The velocity by BDF2 of a side that is stopped in one substep is half of
+/// that before, backwards, so a stack of sheets would bounce for ever.
+pub(crate) fn detect_impacts(active: &[ActiveContact], impacts: &mut Vec<u32>) {
+    let is_impact = |state: &ActiveContact| state.normal_impulse > 0.0 && state.is_new;
     impacts.clear();
     impacts.extend((0..).zip(active).filter(|(_, state)| is_impact(state)).map(|(i, _)| i));
 }
@@ -392,7 +391,7 @@ pub(crate) fn damp_contacts(
     h: f32,
     damp_spin: bool,
 ) {
-    let share = h / (h + DAMPING_TIME);
+    let [normal_share, share] = [NORMAL_DAMPING_TIME, DAMPING_TIME].map(|time| h / (h + time));
     for state in active {
         if state.normal_impulse <= 0.0 {
             continue;
@@ -404,8 +403,10 @@ pub(crate) fn damp_contacts(
         }
         let relative = relative_velocity_wide(contact, v);
         let n = Wide4::from_vec3(contact.n);
-        let relative = if state.sticks { relative } else { n.scale(relative.dot3(n)) };
-        state.apply_impulse(contact, v, relative.scale(-state.effective_mass * share));
+        let along = n.scale(relative.dot3(n));
+        let beside = if state.sticks { relative - along } else { Wide4::splat(0.0) };
+        let damped = along.scale(normal_share) + beside.scale(share);
+        state.apply_impulse(contact, v, damped.scale(-state.effective_mass));
     }
 }
 
