@@ -57,7 +57,7 @@ use std::borrow::Cow;
 /// Signature at the start of a save.
 const MAGIC: &[u8; 8] = b"MUSLINSV";
 /// Version of the format; a change of `SaveData` raises it.
-const FORMAT: u32 = 15;
+const FORMAT: u32 = 16;
 /// Bytes before the body.
 const HEADER: usize = 20;
 

@@ -15,14 +15,14 @@ const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** The largest size of each file with gzip [B]. */
 const MAX_SIZES = {
-  "raw_bg.wasm": 432_450,
-  "plain_bg.wasm": 403_500,
-  "light_bg.wasm": 267_300,
-  "code.js": 506_100,
+  "raw_bg.wasm": 438_100,
+  "plain_bg.wasm": 409_650,
+  "light_bg.wasm": 273_000,
+  "code.js": 513_900,
 };
 
 /** The largest size of all scripts that every page loads, with gzip [B]. */
-const MAX_SCRIPT_SIZE = 15_800;
+const MAX_SCRIPT_SIZE = 15_900;
 
 /** Scripts that only some pages load. */
 const OPTIONAL = /^(bytes|inline|light|no-wasm|heap|code|three|three-with|pointers|react)\.js$/;
