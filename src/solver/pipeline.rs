@@ -70,8 +70,8 @@ macro_rules! timed {
 
 /// Runs one stage in a function of its own, and adds its time to the profile.
 ///
-/// The call is dynamic: V8 does not optimise functions above 61,440 bytes of bytecode, and the lines
-/// of the tick stay short.
+/// The call is dynamic, so that no stage is inlined into the tick: V8 does not optimise functions
+/// above 61,440 bytes of bytecode.
 #[inline(never)]
 fn run_stage(world: &mut World, stage: Stage, work: &dyn Fn(&mut World)) {
     let start = world.profile.start();

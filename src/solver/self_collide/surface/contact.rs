@@ -318,7 +318,7 @@ impl Contact {
         };
     }
 
-    /// Whether this is a pair of edges of which an end is a closest point.
+    /// Whether both sides are edges, and a closest point is an end of its edge.
     #[inline(always)]
     pub(crate) fn is_at_end_of_edge(&self) -> bool {
         self.kind == EDGE_EDGE && self.weights.contains(&0.0)

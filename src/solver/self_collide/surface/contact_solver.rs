@@ -167,9 +167,9 @@ pub(crate) fn count_support(
 
 /// Fills `active` with the contacts that are near enough to need the solver.
 ///
-/// A pair of edges whose closest point is an end of an edge is left out: the contact of that vertex
-/// with a triangle at the other edge is at least as near. Its normal would be tilted, where the end
-/// lies beside the other edge, and a stack of sheets would drift and shake.
+/// Skips a pair of edges if a closest point is an end of its edge: the contact of that vertex with a
+/// triangle at the other edge is at least as near. The normal of the pair would be tilted, and would
+/// push stacked sheets sideways.
 pub(crate) fn collect_active(
     contacts: &[Contact],
     active: &mut Vec<ActiveContact>,
@@ -335,8 +335,8 @@ pub(crate) fn correct_penetration(
 
 /// Fills `impacts` with the indices of active contacts that are impacts: new contacts that push.
 ///
-/// Slow ones count too. The velocity by BDF2 of a side that is stopped in one substep is half of
-/// that before, backwards, so a stack of sheets would bounce for ever.
+/// Slow ones count too: if a side stops within one substep, BDF2 gives it half of its former velocity
+/// in the opposite direction. A stack of sheets would bounce for ever.
 pub(crate) fn detect_impacts(active: &[ActiveContact], impacts: &mut Vec<u32>) {
     let is_impact = |state: &ActiveContact| state.normal_impulse > 0.0 && state.is_new;
     impacts.clear();
