@@ -48,7 +48,7 @@ fn verdicts(results: &[TrialResult<'_>]) -> Table {
                     ),
                 });
             }
-            table.push(row);
+            table.add(row);
         }
     }
     table
@@ -78,7 +78,7 @@ fn values(results: &[TrialResult<'_>]) -> String {
                     let star = if outcome.settled { "" } else { "*" };
                     format_value(quantity, outcome.values[index]) + star
                 }));
-                table.push(row);
+                table.add(row);
             }
         }
     }
@@ -123,7 +123,7 @@ impl Costs {
         heads.truncate(usize::from(self.with_times));
         heads.extend(QUALITIES.map(Quality::name));
         let mut table = Table::new(&["case"], &heads);
-        self.rows.iter().for_each(|row| table.push(row.clone()));
+        self.rows.iter().for_each(|row| table.add(row.clone()));
         format!(
             "### Cost of a tick\n\nAt each number of nodes, as a ratio to `default` at the middle \
              one.\n\n{table}"
@@ -131,16 +131,15 @@ impl Costs {
     }
 }
 
-/// Counts of grades of all quantities, one row for each quality.
+/// Counts of grades of all quantities, and what misses, for each quality.
 pub struct Summary {
     counts: [[usize; 3]; 3],
-    /// What misses at the default quality.
-    missed: Vec<String>,
+    missed: [Vec<String>; 3],
 }
 
 impl Summary {
     pub fn new() -> Self {
-        Self { counts: [[0; 3]; 3], missed: Vec::new() }
+        Self { counts: [[0; 3]; 3], missed: [Vec::new(), Vec::new(), Vec::new()] }
     }
 
     pub fn add(&mut self, case: &Case, results: &[TrialResult<'_>]) {
@@ -149,26 +148,34 @@ impl Summary {
                 for (row, quality) in QUALITIES.into_iter().enumerate() {
                     let worst = result.worst(index, quality);
                     self.counts[row][worst.grade as usize] += 1;
-                    if worst.grade == Grade::Missed && quality == Quality::Default {
+                    if worst.grade == Grade::Missed {
                         let error = format_error(quantity, worst.error);
                         let note = if worst.unsettled[0] > 0 { ", did not settle" } else { "" };
                         let line = format!("- {}: {}: {error}{note}", case.name, quantity.name);
-                        self.missed.push(line);
+                        self.missed[row].push(line);
                     }
                 }
             }
         }
     }
 
-    /// The table of counts, and the list of what misses at the default quality.
+    /// The table of counts, and the lists of what misses.
     pub fn text(&self) -> String {
         let mut table = Table::new(&["quality"], &["quantities", "E", "OK", "neither"]);
-        for (quality, counts) in QUALITIES.into_iter().zip(self.counts) {
+        let mut lists = String::new();
+        for ((quality, counts), missed) in QUALITIES.into_iter().zip(self.counts).zip(&self.missed)
+        {
             let mut row = vec![quality.name().to_owned(), counts.iter().sum::<usize>().to_string()];
             row.extend(counts.iter().map(ToString::to_string));
-            table.push(row);
+            table.add(row);
+            if !missed.is_empty() {
+                let name = quality.name();
+                lists += &format!(
+                    "\nMeets neither at `{name}`, worst errors:\n\n{}\n",
+                    missed.join("\n")
+                );
+            }
         }
-        let missed = if self.missed.is_empty() { "- none".into() } else { self.missed.join("\n") };
-        format!("{table}\nWorst errors of what meets neither at `default`:\n\n{missed}\n")
+        format!("{table}{lists}")
     }
 }

@@ -89,7 +89,10 @@ impl TrialResult<'_> {
 pub fn format_error(quantity: &Quantity, error: f64) -> String {
     match quantity.kind {
         _ if error.is_nan() => "none".into(),
-        ErrorKind::Relative => without_minus_zero(format!("{:+.1} %", 100.0 * error)),
+        ErrorKind::Relative => {
+            let digits = usize::from(error.abs() < 1.0);
+            without_minus_zero(format!("{:+.digits$} %", 100.0 * error))
+        }
         ErrorKind::Absolute => {
             without_minus_zero(format!("{error:+.*}", digits(quantity.tolerances[0] * 0.1)))
         }
