@@ -22,6 +22,9 @@ pub fn run(arguments: &[String]) -> Result {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.as_slice() {
         [WRITE] => write_page(),
+        words if words.contains(&WRITE) => Err(Failure::new(format!(
+            "{WRITE} plays all cases; it takes no names or other options"
+        ))),
         words => shell::run(&mut program(words)),
     }
 }

@@ -28,6 +28,7 @@ const USAGE: &str = "\
 cargo xtask validate [CASE…] [OPTION…]: plays the cases that are named; without a name, all but drape
   --list    only prints the names of the cases
   --manual  leaves out times, which differ between machines: the tables of docs/manual/validation.md
+  --write   plays all and replaces the results of docs/manual/validation.md
   --test    plays a few runs and fails where one is off by more than today";
 
 fn main() -> ExitCode {
