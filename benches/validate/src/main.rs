@@ -25,7 +25,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 const USAGE: &str = "\
-cargo xtask validate [CASE…] [OPTION…]: plays the cases that are named; without a name, all but drape
+cargo xtask validate [CASE…] [OPTION…]: plays the named cases, or all but drape
   --list    only prints the names of the cases
   --manual  leaves out times, which differ between machines: the tables of docs/manual/validation.md
   --write   plays all and replaces the results of docs/manual/validation.md

@@ -52,7 +52,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// Settings with this gravity [m/s²] and damping [1/s], and nothing else that is not the default.
+    /// Settings with this gravity [m/s²] and damping [1/s]; all else is the default.
     pub fn settings(&self, gravity: f64, damping: f32) -> Settings {
         let [substeps, iterations] = self.quality.substeps_and_iterations();
         Settings {

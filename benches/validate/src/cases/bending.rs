@@ -154,8 +154,8 @@ pub fn cantilever() -> Case {
     Case {
         name: "cantilever",
         about: "grids clamped level at one end: drop H and reach W of the tip; Peirce's test",
-        source: "heavy elastica θ'' = −Γ (1 − s) cos θ (Bickley 1934, Phil. Mag. 17); at a chord of \
-                 41.5° the length is 2.0003 bending lengths (BS 3356, ASTM D1388, ISO 9073-7)",
+        source: "heavy elastica θ'' = −Γ (1 − s) cos θ (Bickley 1934, Phil. Mag. 17); at a chord \
+                 of 41.5° the length is 2.0003 bending lengths (BS 3356, ASTM D1388, ISO 9073-7)",
         trials,
         is_default: true,
     }
@@ -211,8 +211,8 @@ pub fn cantilever_mesh() -> Case {
     });
     Case {
         name: "mesh",
-        about: "the same cantilever as a triangle mesh: all diagonals one way, inner vertices moved \
-                at random by up to 0.3 cells",
+        about: "the same cantilever as a triangle mesh: all diagonals one way, inner vertices \
+                moved at random by up to 0.3 cells",
         source: "heavy elastica, as for grids",
         trials: trials.into(),
         is_default: true,

@@ -60,8 +60,8 @@ pub fn drape() -> Case {
     });
     Case {
         name: "drape",
-        about: "discs of 30 cm on a support of 18 cm; nodes are the rings of the mesh, and accurate \
-                has 32 substeps",
+        about: "discs of 30 cm on a support of 18 cm; nodes are the rings of the mesh, and \
+                accurate has 32 substeps",
         source: "bands of measured drape coefficients (BS 5058, ISO 9073-9): Matsudaira and Yang \
                  2003 (silk), Gan et al. 1991 (cotton)",
         trials: trials.into(),

@@ -15,8 +15,8 @@ pub fn sag(ratio: f64) -> f64 {
     (z.cosh() - 1.0) / (2.0 * z)
 }
 
-/// Sag over the span of an elastic chain that is as long as the span without load. `stiffness`: Ks /
-/// (σ g S).
+/// Sag over the span of an elastic chain that is as long as the span without load. `stiffness`:
+/// Ks / (σ g S).
 pub fn elastic_sag(stiffness: f64) -> f64 {
     // With the half length ½ and the weight 1 per length: S/2 = H l / Ks + H asinh(l / H).
     let half = 0.5;
