@@ -18,6 +18,11 @@ impl Table {
     /// Appends a row, and prints it to stderr as progress: the table itself is printed at the end.
     pub fn push(&mut self, row: Vec<String>) {
         eprintln!("  {}", row.join("  "));
+        self.add(row);
+    }
+
+    /// Appends a row.
+    pub fn add(&mut self, row: Vec<String>) {
         self.rows.push(row);
     }
 

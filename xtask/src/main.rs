@@ -53,6 +53,7 @@ mod symbols;
 mod test;
 mod tools;
 mod traps;
+mod validate;
 mod verify;
 mod wasm;
 mod web;
@@ -98,6 +99,10 @@ cargo xtask bench [TABLE…]          time native code and node, or the tables t
 cargo xtask verify [SCENE…]         check the guarantees of cloth after every tick of many scenes
   --short                           of a few scenes, for a few ticks
   --list                            only print the names of the scenes
+cargo xtask validate [CASE…]        play reference cases of physics and print how far off they are
+  --list                            only print the names of the cases
+  --test                            a few runs, and fail where one is farther off than today
+  --write                           all cases, into docs/manual/validation.md
 cargo xtask fuzz [SECONDS]          fuzz the C library for an hour or for these seconds
 cargo xtask race [SECONDS]          step many cloths on two threads under the thread sanitizer
 cargo xtask miri                    run the tests of the C library's boundary under Miri
@@ -135,6 +140,7 @@ fn run(args: &[String]) -> Result {
         "race" => race::run(rest),
         "miri" => miri::run(rest),
         "verify" => verify::run(rest),
+        "validate" => validate::run(rest),
         "fuzz" => fuzz::run(rest),
         "python" => alone(chore, rest, python::build),
         "c" => alone(chore, rest, c_tests::check),

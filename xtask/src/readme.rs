@@ -253,7 +253,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["godot"] => Action::Step("godot"),
         ["examples"] => Action::Step("examples"),
         ["web" | "setup" | "manual-pictures" | "share-pictures"] => Action::Chore(rest.to_vec()),
-        ["verify", "--short"] => Action::Step("verify"),
+        ["verify", "--short"] | ["validate", ..] => Action::Step("verify"),
         ["bench", tables @ ..] => Action::Bench(tables.to_vec()),
         _ => Action::Unknown,
     }

@@ -86,7 +86,7 @@ pub const STEPS: &[Step] = &[
     },
     Step {
         name: "verify",
-        about: "the guarantees of cloth after every tick, in a few scenes",
+        about: "the guarantees of cloth after every tick, in a few scenes; reference cases of physics",
         needs: &[],
         writes: &[],
         reads: &[],

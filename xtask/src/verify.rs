@@ -1,7 +1,7 @@
 //! Plays the scenes of `muslin-verify`, which checks the guarantees of cloth after every tick.
 
 use crate::failure::Result;
-use crate::shell;
+use crate::{shell, validate};
 
 /// The profile of the program: optimised as a user's own release build is.
 const PROFILE: &str = "release-test";
@@ -15,7 +15,8 @@ pub fn run(arguments: &[String]) -> Result {
     shell::run(shell::cargo(&run).args(arguments))
 }
 
-/// Step `verify`: plays the short scenes.
+/// Step `verify`: plays the short scenes, and a few runs of the reference cases of physics.
 pub fn test_briefly() -> Result {
-    run(&[SHORT.into()])
+    run(&[SHORT.into()])?;
+    validate::test()
 }
