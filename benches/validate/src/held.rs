@@ -46,7 +46,10 @@ pub fn check(cases: &[Case]) -> Result<(), String> {
     let mut misses = Vec::new();
     for Held(name, quantity, quality, nodes, rate, grade) in HELD {
         let run = Run { quality: *quality, nodes: *nodes, rate: *rate };
-        let case = cases.iter().find(|case| case.name == *name).ok_or("a case has gone")?;
+        let case = cases
+            .iter()
+            .find(|case| case.name == *name)
+            .ok_or(format!("there is no case {name:?}"))?;
         let found = case.trials.iter().find_map(|trial| {
             let index = trial.quantities.iter().position(|q| q.name.starts_with(quantity))?;
             Some((trial, index))

@@ -10,6 +10,8 @@
 
 mod cases;
 mod held;
+#[path = "../../meshes/src/noise.rs"]
+mod noise;
 mod player;
 mod references;
 mod report;

@@ -82,18 +82,17 @@ impl Player {
         sum / count
     }
 
-    /// Kinetic energy, and potential energy in the cloth's gravity [J].
-    pub fn energies(&self) -> [f64; 2] {
+    /// Kinetic energy plus potential energy in the cloth's gravity [J].
+    pub fn energy(&self) -> f64 {
         let gravity = self.cloth.settings().gravity.as_dvec3();
-        let mut energies = [0.0; 2];
+        let mut energy = 0.0;
         for (particle, x) in self.cloth.positions().iter().enumerate() {
             let particle = particle as u32;
             let mass = f64::from(self.cloth.mass(particle).unwrap_or_default());
             let speed = self.cloth.velocity(particle).unwrap_or_default().as_dvec3();
-            energies[0] += 0.5 * mass * speed.length_squared();
-            energies[1] -= mass * gravity.dot(x.as_dvec3());
+            energy += mass * (0.5 * speed.length_squared() - gravity.dot(x.as_dvec3()));
         }
-        energies
+        energy
     }
 
     /// Processor time of a tick [ms].

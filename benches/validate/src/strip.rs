@@ -93,6 +93,11 @@ impl Strip {
         player.mean(self.column(column))
     }
 
+    /// Mean position of the middle column, or of both [m].
+    pub fn middle(&self, player: &Player) -> DVec3 {
+        0.5 * (self.at(player, (self.columns - 1) / 2) + self.at(player, self.columns / 2))
+    }
+
     /// Moves every particle so that the column `i` has the offset `points[i]` in the plane of
     /// `along` and up, and sets the pins there too.
     pub fn place(&self, player: &mut Player, points: &[[f64; 2]]) -> muslin::Result<()> {

@@ -1,6 +1,7 @@
 //! Strips that bend under their weight: between clamps, closed to a ring, and as cantilevers.
 
 use super::G;
+use crate::noise::Noise;
 use crate::player::{DAMPING, Player};
 use crate::references::{elastica, slack_elastica};
 use crate::run::{Outcome, Run};
@@ -228,7 +229,7 @@ fn irregular(strip: &Strip) -> muslin::Result<Player> {
         extra_particles: 0,
         ..MeshDesc::default()
     };
-    let mut noise = Noise(0x9e37_79b9_7f4a_7c15);
+    let mut noise = Noise::new(1);
     for row in 0..rows {
         for column in 0..columns {
             let mut at = [f64::from(column), f64::from(row)];
@@ -251,17 +252,4 @@ fn irregular(strip: &Strip) -> muslin::Result<Player> {
     }
     desc.pinned = [0, 1].into_iter().flat_map(|column| strip.column(column)).collect();
     Ok(Player::new(Cloth::mesh(&desc)?))
-}
-
-/// A xorshift generator (Marsaglia, "Xorshift RNGs", 2003).
-struct Noise(u64);
-
-impl Noise {
-    /// Returns a number from −1 to 1.
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
 }

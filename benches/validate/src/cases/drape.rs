@@ -63,7 +63,7 @@ pub fn drape() -> Case {
         about: "discs of 30 cm on a support of 18 cm; nodes are the rings of the mesh, and \
                 accurate has 32 substeps",
         source: "bands of measured drape coefficients (BS 5058, ISO 9073-9): Matsudaira and Yang \
-                 2003 (silk), Gan et al. 1991 (cotton)",
+                 2003 (silk), Gan et al. 1991 (cotton); that of denim has no named publication",
         trials: trials.into(),
         is_default: false,
     }

@@ -172,7 +172,7 @@ fn swing_energy(degrees: f64, turn: f64) -> Trial {
                 -f64::from(player.cloth.mass(particle).unwrap_or_default()) * G * below
             })
             .sum();
-        let energy = |player: &Player| player.energies().into_iter().sum::<f64>() - lowest;
+        let energy = |player: &Player| player.energy() - lowest;
         let start = energy(&player);
         let mut most = start;
         for _ in 0..player.ticks_in(5.0) {

@@ -45,9 +45,7 @@ fn bulge_at(speed: f64) -> Trial {
         let velocity = Vec3::Z * speed as f32;
         player.cloth.set_wind(Wind { velocity, ..Wind::default() })?;
         player.settle(1.0);
-        let middle = [(run.nodes - 1) / 2, run.nodes / 2];
-        let [a, b] = middle.map(|column| strip.at(&player, column).z);
-        Ok(Outcome::of(&player, [0.5 * (a + b)]))
+        Ok(Outcome::of(&player, [strip.middle(&player).z]))
     })
 }
 
