@@ -11,7 +11,7 @@
 //! Wide folds have a small λ, so they bend exactly as the material says, with any number of steps.
 //! With one step this is explicit Euler. The number of steps is about the square root of the bound.
 //!
-//! Reads a bound for the stiffness over mass; gives coefficients for `plate` and `mesh_implicit`.
+//! Reads a bound for the stiffness over mass; gives coefficients for `plate`.
 //! Invariant: for every λ from 0 to the bound the relative error is at most `MAX_ERROR`, or
 //! `MAX_ERROR_ONE_STEP` with one step.
 

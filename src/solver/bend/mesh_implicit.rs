@@ -3,71 +3,83 @@
 //! ```text
 //! M d = −h² K (x + d)        d: displacement by bending, K: stiffness matrix (`stiffness_matrix`)
 //! ```
-//! Method: K is symmetric and, since hinges are quadratic, independent of the positions. A soft
-//! mesh takes a few explicit Chebyshev steps (`chebyshev`), a stiff one conjugate gradients with
-//! Jacobi preconditioner (Hestenes and Stiefel 1952). Each step is one product with K. The number
-//! of steps grows with the square root of the stiffness over mass, where Gauss–Seidel sweeps over
-//! hinges would grow linearly.
+//! Method: K is symmetric and, since hinges are quadratic, independent of the positions. An
+//! incomplete factorisation (`incomplete_cholesky`) solves the system. Where it is not accurate
+//! enough, it preconditions conjugate gradients (Hestenes and Stiefel 1952), each step of which is
+//! one product with K; few are needed, however stiff or fine the mesh is.
+//!
+//! The particles are sorted along the longest axis of the mesh at rest, so that narrow meshes have
+//! an exact factorisation and all memory access is local.
 //!
 //! Reads hinges, elements, folds and positions; writes positions and `MeshBendScratch`.
-//! Invariant: matrix and coefficients are recomputed exactly when links, stiffness, masses or held
+//! Invariant: matrix and factors are recomputed exactly when links, stiffness, masses or held
 //! particles change. Dot products sum in a fixed order, so the bits are the same on every platform.
 
 use crate::math::TINY;
+use crate::math::sort::sort_by;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};
 use crate::model::bend_scale::{BendScale, BendScaleKey};
-use crate::model::hinge::{Hinge, hinge_normal};
+use crate::model::hinge::hinge_normal;
 use crate::model::hinges::Hinges;
-use crate::solver::bend::chebyshev::ChebyshevSteps;
 use crate::solver::bend::hinge::HingeStep;
+use crate::solver::bend::incomplete_cholesky::IncompleteCholesky;
 use crate::solver::bend::stiffness_matrix::StiffnessMatrix;
 use crate::solver::particle_stage::access::ParticleAccess;
-use glam::{Vec3, Vec4};
+use glam::{DVec3, Vec3, Vec4};
 
 /// Largest number of conjugate gradient steps per solve.
-const MAX_STEPS: f32 = 48.0;
+const MAX_STEPS: u32 = 48;
 
 /// Stiffness over mass from which the second solve of a substep pays.
 const MIN_SECOND_SOLVE: f32 = 0.25;
 
-/// Safety factor on the bound of the Chebyshev steps: they leave a residual of the stiffest shapes
-/// in each substep, and with factor 1 discs of cotton did not come to rest.
-const BOUND_FACTOR: f32 = 2.0;
+/// Stiffness over mass above which the forces are summed in double precision.
+const MIN_PRECISE: f32 = 100.0;
 
-/// Conjugate gradients end at this ratio of the squared residual to the initial one.
-const RESIDUAL_RATIO: f32 = 1.0e-8;
+/// Bound of the relative error up to which the factorisation alone solves the system.
+const MAX_ERROR: f32 = 0.05;
 
-/// Buffers with an entry per particle, and the cached matrix.
+/// Conjugate gradients end at this ratio of the squared residual under the preconditioner to the
+/// initial one; a last step by the preconditioner alone then divides the error by ten or so.
+const RESIDUAL_RATIO: f32 = 3.0e-3;
+
+/// Buffers with an entry per particle, and the cached matrix. All but `area` and `rank` are sorted
+/// by rank.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct MeshBendScratch {
-    /// Element energies and stiffness matrix; valid until links or held particles change.
+    /// Element energies, stiffness matrix and factors; valid until links, masses, stiffness or held
+    /// particles change.
     elements: Vec<TriangleStiffness>,
     stiffness: StiffnessMatrix,
+    factors: IncompleteCholesky,
     /// Area of each particle at rest [m²]; 0 for held particles.
     area: Vec<f32>,
+    /// Particle of each rank, and rank of each particle.
+    order: Vec<u32>,
+    rank: Vec<u32>,
     revision: u32,
     /// Key of the scales for which the matrix was assembled.
     scale_key: BendScaleKey,
-    /// Chebyshev steps, valid until masses or `assembled_stiffness` change too; `None` if too
-    /// stiff.
-    chebyshev: Option<ChebyshevSteps>,
     assembled_stiffness: f32,
     /// Force of the rest curvature of each hinge, times h² [kg m³]; used if some hinges are bent.
     rest_force: Vec<Vec4>,
+    /// The same, coupled by the elements.
+    coupled_force: Vec<Vec4>,
     w: Vec<f32>,
-    /// Mass, and inverse of the diagonal of M + h² K; 0 for held particles.
+    /// Mass; 0 for held particles.
     mass: Vec<f32>,
-    inverse_diagonal: Vec<f32>,
     /// Positions less the damping share of the start positions. This and all below hold x, y, z, 0,
     /// which fit a SIMD register.
     x: Vec<Vec4>,
+    /// Sums of forces in double precision.
+    sums: Vec<DVec3>,
     /// Displacement by bending in this substep [m].
     total: Vec<Vec4>,
     /// Displacement by the current solve [m].
     change: Vec<Vec4>,
     /// Residual of the system [kg m].
     residual: Vec<Vec4>,
-    /// Search direction, and its product with −(M + h² K).
+    /// Search direction, and its product with −(M + h² K) or the preconditioned residual.
     direction: Vec<Vec4>,
     product: Vec<Vec4>,
 }
@@ -77,20 +89,24 @@ impl MeshBendScratch {
     /// particles.
     pub fn new(triangles: usize, hinges: usize, capacity: usize) -> Self {
         let numbers = || Vec::with_capacity(capacity);
+        let indices = || Vec::with_capacity(capacity);
         let vectors = || Vec::with_capacity(capacity);
         Self {
             elements: Vec::with_capacity(triangles),
             stiffness: StiffnessMatrix::with_capacity(capacity),
+            factors: IncompleteCholesky::with_capacity(capacity),
             area: numbers(),
+            order: indices(),
+            rank: indices(),
             revision: 0,
             scale_key: BendScaleKey::default(),
-            chebyshev: None,
             assembled_stiffness: 0.0,
             rest_force: Vec::with_capacity(hinges),
+            coupled_force: Vec::with_capacity(hinges),
             w: numbers(),
             mass: numbers(),
-            inverse_diagonal: numbers(),
             x: vectors(),
+            sums: Vec::with_capacity(capacity),
             total: vectors(),
             change: vectors(),
             residual: vectors(),
@@ -115,6 +131,9 @@ pub(crate) struct MeshBend<'a> {
     /// Triangles, and the area of each corner at rest [m²].
     pub triangles: &'a [[u32; 3]],
     pub corner_area: &'a [[f32; 3]],
+    /// Rest position of each site [m], and site of each particle.
+    pub rest: &'a [Vec3],
+    pub site: &'a [u32],
     /// Whether this is the first solve of the substep.
     pub is_first: bool,
 }
@@ -130,25 +149,30 @@ impl MeshBend<'_> {
         start: impl Fn(usize) -> Vec3,
         particles: &mut S,
     ) {
-        if !self.is_first
-            && (self.stiffness_over_mass < MIN_SECOND_SOLVE || scratch.chebyshev.is_some())
-        {
+        if !self.is_first && self.stiffness_over_mass < MIN_SECOND_SOLVE {
             return;
         }
         let is_resized = self.resize(scratch, count);
         if self.load(scratch, start, particles) || is_resized {
             self.assemble(scratch, count);
         }
-        scratch.stiffness.add_forces(&scratch.x, &mut scratch.residual);
-        self.add_rest_forces(scratch, particles);
-        match scratch.chebyshev {
-            Some(chebyshev) => solve_chebyshev(scratch, &chebyshev),
-            None => self.solve_conjugate_gradients(scratch),
+        let MeshBendScratch { stiffness, x, sums, residual, .. } = &mut *scratch;
+        if self.stiffness_over_mass > MIN_PRECISE {
+            stiffness.add_precise_forces(x, sums, residual);
+        } else {
+            stiffness.add_forces(x, residual);
         }
-        for (i, (total, change)) in scratch.total.iter_mut().zip(&scratch.change).enumerate() {
-            let (x, w) = particles.particle(i);
+        self.add_rest_forces(scratch, particles);
+        if scratch.factors.error() <= MAX_ERROR {
+            scratch.factors.solve(&scratch.residual, &mut scratch.change);
+        } else {
+            solve_conjugate_gradients(scratch);
+        }
+        let each = scratch.order.iter().zip(&mut scratch.total).zip(&scratch.change);
+        for ((i, total), change) in each {
+            let (x, w) = particles.particle(*i as usize);
             if w > 0.0 {
-                particles.set_position(i, x + change.truncate());
+                particles.set_position(*i as usize, x + change.truncate());
                 *total += *change;
             }
         }
@@ -163,25 +187,49 @@ impl MeshBend<'_> {
         if known == (revision, stiffness, scale_key) && scratch.w.len() == count {
             return false;
         }
-        for numbers in [&mut scratch.w, &mut scratch.mass, &mut scratch.inverse_diagonal] {
+        for numbers in [&mut scratch.w, &mut scratch.mass] {
             numbers.resize(count, 0.0);
         }
         let vectors = [&mut scratch.x, &mut scratch.total, &mut scratch.residual];
         let more = [&mut scratch.change, &mut scratch.direction, &mut scratch.product];
         vectors.into_iter().chain(more).for_each(|vectors| vectors.resize(count, Vec4::ZERO));
-        scratch.rest_force.resize(self.hinges.all.len(), Vec4::ZERO);
+        for forces in [&mut scratch.rest_force, &mut scratch.coupled_force] {
+            forces.resize(self.hinges.all.len(), Vec4::ZERO);
+        }
+        self.sort_particles(scratch, count);
         (scratch.revision, scratch.assembled_stiffness, scratch.scale_key) =
             (revision, stiffness, scale_key);
         true
     }
 
-    /// Assembles the matrix for the current links, stiffness and held particles.
+    /// Sorts the particles along the longest axis of the mesh at rest.
+    fn sort_particles(&self, scratch: &mut MeshBendScratch, count: usize) {
+        let MeshBendScratch { order, rank, .. } = scratch;
+        let rest = |i: u32| self.rest[self.site[i as usize] as usize];
+        let empty = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+        let [low, high] =
+            (0..count as u32).map(rest).fold(empty, |[low, high], x| [low.min(x), high.max(x)]);
+        let size = high - low;
+        let axis = (1..3).fold(0, |most, axis| if size[axis] > size[most] { axis } else { most });
+        if order.len() != count {
+            order.clear();
+            order.extend(0..count as u32);
+        }
+        sort_by(order, |p, q| rest(*p)[axis].total_cmp(&rest(*q)[axis]).then(p.cmp(q)));
+        rank.resize(count, 0);
+        for (at, i) in (0..).zip(&*order) {
+            rank[*i as usize] = at;
+        }
+    }
+
+    /// Assembles and factorises the matrix for the current links, stiffness and held particles.
+    #[inline(never)]
     fn assemble(&self, scratch: &mut MeshBendScratch, count: usize) {
-        let MeshBendScratch { elements, stiffness, area, w, mass, inverse_diagonal, .. } = scratch;
+        let MeshBendScratch { elements, stiffness, factors, area, rank, w, mass, .. } = scratch;
         let all = &self.hinges.all;
         let holds = |hinge: usize| self.active[self.hinges.links[hinge] as usize];
         let scale = |element: usize, corners: [u32; 3]| self.scale.of_element(element, &corners);
-        let is_held = |vertex: u32| w[vertex as usize] == 0.0;
+        let is_held = |vertex: u32| w[rank[vertex as usize] as usize] == 0.0;
         self.hinges.elements.compute_stiffness(all, holds, is_held, scale, elements);
         area.clear();
         area.resize(count, 0.0);
@@ -190,12 +238,8 @@ impl MeshBend<'_> {
                 area[*vertex as usize] += corner_area;
             }
         }
-        stiffness.assemble(all, elements, self.step.stiffness, area);
-        let each = inverse_diagonal.iter_mut().zip(&*w).zip(&*mass).zip(stiffness.diagonal());
-        for (((inverse_diagonal, w), mass), diagonal) in each {
-            *inverse_diagonal = if *w > 0.0 { 1.0 / (mass + diagonal) } else { 0.0 };
-        }
-        scratch.chebyshev = ChebyshevSteps::new(BOUND_FACTOR * stiffness.bound(w));
+        stiffness.assemble(all, elements, self.step.stiffness, area, rank);
+        factors.factorise(stiffness, mass);
     }
 
     /// Loads positions and masses, initialises the residual, and returns whether a mass changed.
@@ -208,7 +252,9 @@ impl MeshBend<'_> {
         let start_share = self.step.start_share;
         let mut has_changed = false;
         let known = scratch.w.iter_mut().zip(&mut scratch.mass);
-        for (i, (slot, (known, mass))) in scratch.x.iter_mut().zip(known).enumerate() {
+        let each = scratch.order.iter().zip(scratch.x.iter_mut().zip(known));
+        for (i, (slot, (known, mass))) in each {
+            let i = *i as usize;
             let (x, w) = particles.particle(i);
             let shifted = if start_share > 0.0 { x - start(i) * start_share } else { x };
             *slot = shifted.extend(0.0);
@@ -244,73 +290,64 @@ impl MeshBend<'_> {
                 (hinge_normal(corners) * rest).extend(0.0)
             };
         }
-        for element in &scratch.elements {
-            add_element_forces(hinges, element, &scratch.rest_force, &mut scratch.residual);
+        let MeshBendScratch { elements, rest_force, coupled_force, residual, rank, .. } = scratch;
+        coupled_force.fill(Vec4::ZERO);
+        for element in elements {
+            couple_rest_forces(element, rest_force, coupled_force);
         }
-    }
-
-    /// Solves (M + h² K) change = residual by preconditioned conjugate gradients.
-    fn solve_conjugate_gradients(&self, scratch: &mut MeshBendScratch) {
-        let MeshBendScratch {
-            stiffness,
-            mass,
-            inverse_diagonal,
-            change,
-            residual,
-            direction,
-            product,
-            ..
-        } = scratch;
-        let steps = (2.0 * (1.0 + 64.0 * self.stiffness_over_mass).sqrt()).min(MAX_STEPS) as u32;
-        change.fill(Vec4::ZERO);
-        direction.fill(Vec4::ZERO);
-        update_direction(direction, residual, inverse_diagonal, 0.0);
-        let mut residual2 = dot(direction, residual);
-        let tolerance = residual2 * RESIDUAL_RATIO;
-        for _ in 0..steps {
-            if residual2 <= tolerance || residual2 <= TINY * TINY {
-                return;
+        for (hinge, force) in hinges.iter().zip(coupled_force) {
+            if *force != Vec4::ZERO {
+                let ([p, others @ ..], [_, weights @ ..]) = (hinge.particles, hinge.weight);
+                let mut sum = Vec4::ZERO;
+                for (vertex, weight) in others.into_iter().zip(weights) {
+                    let force = *force * weight;
+                    residual[rank[vertex as usize] as usize] += force;
+                    sum += force;
+                }
+                residual[rank[p as usize] as usize] -= sum;
             }
-            for ((product, direction), mass) in product.iter_mut().zip(&*direction).zip(&*mass) {
-                *product = -*direction * *mass;
-            }
-            stiffness.add_forces(direction, product);
-            let step_length = residual2 / -dot(direction, product);
-            let next_residual2 =
-                advance(step_length, [change, residual], [direction, product], inverse_diagonal);
-            update_direction(direction, residual, inverse_diagonal, next_residual2 / residual2);
-            residual2 = next_residual2;
         }
     }
 }
 
-/// Approximates the solution by Chebyshev steps.
-fn solve_chebyshev(scratch: &mut MeshBendScratch, chebyshev: &ChebyshevSteps) {
-    let MeshBendScratch { stiffness, w, mass, change, residual, direction, .. } = scratch;
+/// Solves (M + h² K) change = residual by preconditioned conjugate gradients.
+#[inline(never)]
+fn solve_conjugate_gradients(scratch: &mut MeshBendScratch) {
+    let MeshBendScratch { stiffness, factors, mass, change, residual, direction, product, .. } =
+        scratch;
     change.fill(Vec4::ZERO);
-    for (at, [keep, gain]) in chebyshev.steps().iter().enumerate() {
-        if at > 0 {
-            stiffness.add_forces(direction, residual);
+    direction.fill(Vec4::ZERO);
+    let (mut squared, mut initial) = (1.0, 0.0);
+    for step in 0..=MAX_STEPS {
+        factors.solve(residual, product);
+        let next_squared = dot(product, residual);
+        let has_converged = step > 0 && !(next_squared > initial * RESIDUAL_RATIO);
+        if has_converged || step == MAX_STEPS || !(next_squared > TINY * TINY) {
+            change.iter_mut().zip(product).for_each(|(change, last)| *change += *last);
+            return;
         }
-        let of_particles = residual.iter_mut().zip(&*w).zip(&*mass);
-        for ((change, direction), ((residual, w), mass)) in
-            change.iter_mut().zip(&mut *direction).zip(of_particles)
-        {
-            let last = if at == 0 { Vec4::ZERO } else { *direction * *keep };
-            *direction = last + *residual * (w * gain);
-            *change += *direction;
-            *residual -= *direction * *mass;
+        if step == 0 {
+            initial = next_squared;
+        }
+        let keep = if step == 0 { 0.0 } else { next_squared / squared };
+        squared = next_squared;
+        for ((direction, product), mass) in direction.iter_mut().zip(&mut *product).zip(&*mass) {
+            *direction = *product + *direction * keep;
+            *product = -*direction * *mass;
+        }
+        stiffness.add_forces(direction, product);
+        let step_length = squared / -dot(direction, product);
+        let moved = change.iter_mut().zip(&mut *residual).zip(&*direction).zip(&*product);
+        for (((change, residual), direction), product) in moved {
+            *change += *direction * step_length;
+            *residual += *product * step_length;
         }
     }
 }
 
-/// Adds the rest forces of the three hinges of an element to the residual; they sum to zero.
-fn add_element_forces(
-    hinges: &[Hinge],
-    element: &TriangleStiffness,
-    rest_force: &[Vec4],
-    residual: &mut [Vec4],
-) {
+/// Adds the rest forces of the three hinges of an element, coupled by its stiffness, to `coupled`.
+#[inline(always)]
+fn couple_rest_forces(element: &TriangleStiffness, rest_force: &[Vec4], coupled: &mut [Vec4]) {
     let own = [0, 1, 2].map(|slot| {
         if element.own[slot] > 0.0 { rest_force[element.hinges[slot] as usize] } else { Vec4::ZERO }
     });
@@ -327,30 +364,8 @@ fn add_element_forces(
     }
     for (slot, force) in force.into_iter().enumerate() {
         if element.own[slot] > 0.0 {
-            let Hinge { particles: at, weight: [_, q, a, b], .. } =
-                hinges[element.hinges[slot] as usize];
-            let mut sum = Vec4::ZERO;
-            for (vertex, weight) in at[1..].iter().zip([q, a, b]) {
-                let force = force * weight;
-                residual[*vertex as usize] += force;
-                sum += force;
-            }
-            residual[at[0] as usize] -= sum;
+            coupled[element.hinges[slot] as usize] += force;
         }
-    }
-}
-
-/// Updates the search direction: preconditioned residual plus `keep` times the last direction.
-fn update_direction(
-    direction: &mut [Vec4],
-    residual: &[Vec4],
-    inverse_diagonal: &[f32],
-    keep: f32,
-) {
-    for ((direction, residual), inverse_diagonal) in
-        direction.iter_mut().zip(residual).zip(inverse_diagonal)
-    {
-        *direction = *residual * *inverse_diagonal + *direction * keep;
     }
 }
 
@@ -361,23 +376,6 @@ fn dot(a: &[Vec4], b: &[Vec4]) -> f32 {
         for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
             *sum += *a * *b;
         }
-    }
-    sum(sums)
-}
-
-/// Moves `step_length` along the search direction, updates the residual, and returns its squared
-/// norm under the preconditioner.
-fn advance(
-    step_length: f32,
-    [change, residual]: [&mut [Vec4]; 2],
-    [direction, product]: [&[Vec4]; 2],
-    inverse_diagonal: &[f32],
-) -> f32 {
-    let mut sums = [Vec4::ZERO; 2];
-    for (at, (change, residual)) in change.iter_mut().zip(residual).enumerate() {
-        *change += direction[at] * step_length;
-        *residual += product[at] * step_length;
-        sums[at % 2] += *residual * *residual * inverse_diagonal[at];
     }
     sum(sums)
 }

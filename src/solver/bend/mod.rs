@@ -23,6 +23,7 @@ pub(crate) mod bend_scratch;
 pub(crate) mod chebyshev;
 pub(crate) mod fold_edits;
 pub(crate) mod hinge;
+pub(crate) mod incomplete_cholesky;
 pub(crate) mod irregular;
 pub(crate) mod line_factors;
 pub(crate) mod mesh_implicit;
@@ -255,6 +256,8 @@ fn solve_hinges(world: &mut World, step: HingeStep, order: SweepOrder) {
             / (world.material.density * cell * cell),
         triangles: &world.mesh.triangles,
         corner_area: &world.corner_area,
+        rest: &world.rest,
+        site: &world.mesh.source,
         is_first: order == SweepOrder::Forward,
     };
     let start = |i: usize| predicted.get(i) - displacement.get(i);

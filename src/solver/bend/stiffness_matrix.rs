@@ -14,7 +14,7 @@
 use crate::math::sort::sort_by;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};
 use crate::model::hinge::Hinge;
-use glam::Vec4;
+use glam::{DVec3, Vec4};
 
 /// Entries per row: enough for a particle with eight triangles. Further entries go to `overflow`.
 const WIDTH: usize = 12;
@@ -29,9 +29,9 @@ const CORNERS: usize = 12;
 
 /// Stiffness [kg] between the particle of the row and the particle `column`.
 #[derive(Clone, Copy, Debug)]
-struct Entry {
-    column: u32,
-    stiffness: f32,
+pub(crate) struct Entry {
+    pub column: u32,
+    pub stiffness: f32,
 }
 
 const NO_ENTRY: Entry = Entry { column: 0, stiffness: 0.0 };
@@ -44,9 +44,8 @@ pub(crate) struct StiffnessMatrix {
     counts: Vec<u32>,
     /// Entries beyond the row width, sorted by row and column, without duplicates.
     overflow: Vec<(u32, Entry)>,
-    /// Diagonal entries, and sums of the absolute off-diagonal entries of each row [kg].
+    /// Diagonal entries [kg].
     diagonal: Vec<f32>,
-    row_sum: Vec<f32>,
 }
 
 impl StiffnessMatrix {
@@ -57,19 +56,19 @@ impl StiffnessMatrix {
             counts: Vec::with_capacity(capacity),
             overflow: Vec::with_capacity(capacity),
             diagonal: Vec::with_capacity(capacity),
-            row_sum: Vec::with_capacity(capacity),
         }
     }
 
     /// Assembles the matrix: all elements times `stiffness` [kg m²]. `area` is that of each particle
     /// [m²], or 0 where no limit applies; an element that is stiffer than `MAX_RELATIVE_STIFFNESS`
-    /// allows is scaled down.
+    /// allows is scaled down. `rank` is the row of each particle.
     pub fn assemble(
         &mut self,
         hinges: &[Hinge],
         elements: &mut [TriangleStiffness],
         stiffness: f32,
         area: &[f32],
+        rank: &[u32],
     ) {
         self.rows.clear();
         let count = area.len();
@@ -86,26 +85,27 @@ impl StiffnessMatrix {
             }
             for b in 1..stencil.count {
                 for a in 0..b {
-                    self.add([stencil.at[a], stencil.at[b]], -stencil.stiffness(a, b) * stiffness);
+                    let rows = [a, b].map(|at| rank[stencil.at[at] as usize]);
+                    self.add(rows, -stencil.stiffness(a, b) * stiffness);
                 }
             }
         }
         self.sort_overflow();
-        for sums in [&mut self.diagonal, &mut self.row_sum] {
-            sums.clear();
-            sums.resize(count, 0.0);
-        }
-        let Self { rows, counts, overflow, diagonal, row_sum } = self;
-        let mut add_to_sums = |i: usize, entry: &Entry| {
-            for at in [i, entry.column as usize] {
-                diagonal[at] += entry.stiffness;
-                row_sum[at] += entry.stiffness.abs();
+        self.diagonal.clear();
+        self.diagonal.resize(count, 0.0);
+        for row in 0..count {
+            let mut sum = self.diagonal[row];
+            for Entry { column, stiffness } in &self.rows[row][..self.counts[row] as usize] {
+                self.diagonal[*column as usize] += stiffness;
+                sum += stiffness;
             }
-        };
-        for (i, (row, count)) in rows.iter().zip(&*counts).enumerate() {
-            row[..*count as usize].iter().for_each(|entry| add_to_sums(i, entry));
+            self.diagonal[row] = sum;
         }
-        overflow.iter().for_each(|(row, entry)| add_to_sums(*row as usize, entry));
+        for (row, Entry { column, stiffness }) in &self.overflow {
+            for at in [*row, *column] {
+                self.diagonal[at as usize] += stiffness;
+            }
+        }
     }
 
     fn add(&mut self, [a, b]: [u32; 2], stiffness: f32) {
@@ -153,17 +153,38 @@ impl StiffnessMatrix {
         }
     }
 
+    /// Adds the same with sums in double precision, which `sums` receives: the forces of a stiff mesh
+    /// nearly cancel, so their rounding errors would shake it.
+    #[inline(never)]
+    pub fn add_precise_forces(&self, x: &[Vec4], sums: &mut Vec<DVec3>, force: &mut [Vec4]) {
+        sums.clear();
+        sums.resize(x.len(), DVec3::ZERO);
+        let position = |i: usize| x[i].truncate().as_dvec3();
+        for i in 0..x.len() {
+            self.for_each_in_row(i, |Entry { column, stiffness }| {
+                let column = column as usize;
+                let pair_force = (position(column) - position(i)) * f64::from(stiffness);
+                sums[column] -= pair_force;
+                sums[i] += pair_force;
+            });
+        }
+        for (force, sum) in force.iter_mut().zip(sums) {
+            *force += sum.as_vec3().extend(0.0);
+        }
+    }
+
     /// Diagonal entries [kg].
     pub fn diagonal(&self) -> &[f32] {
         &self.diagonal
     }
 
-    /// Upper bound of the stiffness over mass of any shape, for these inverse masses: the largest
-    /// absolute row sum (Gershgorin 1931).
-    pub fn bound(&self, w: &[f32]) -> f32 {
-        let each = self.diagonal.iter().zip(&self.row_sum).zip(w);
-        each.map(|((diagonal, row_sum), w)| (diagonal.abs() + row_sum) * w)
-            .fold(0.0, |largest, each| if each > largest { each } else { largest })
+    /// Calls `visit` with each entry of a row right of the diagonal.
+    #[inline(always)]
+    pub fn for_each_in_row(&self, row: usize, mut visit: impl FnMut(Entry)) {
+        self.rows[row][..self.counts[row] as usize].iter().for_each(|entry| visit(*entry));
+        let start = self.overflow.partition_point(|(at, _)| (*at as usize) < row);
+        let of_row = self.overflow[start..].iter().take_while(|(at, _)| *at as usize == row);
+        of_row.for_each(|(_, entry)| visit(*entry));
     }
 }
 
