@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! intact rows   uniform ones together, widest vectors      uniform_rows
-//! torn rows     masked chunks                              row_chunk
+//! torn rows     masked chunks                              row_chunk, see `is_masked`
 //! scalar links  rows shorter than a vector, odd last links project_pair
 //! ```
 //! Reads `GridRows`, rest lengths, compliances, weights of the ends; writes positions and λ.
@@ -152,6 +152,13 @@ kernels! {
 /// Without SIMD there are no chunks; `solve_rows` uses the scalar code.
 fn no_simd(_: &[LinkRow], _: &mut GridSlices<'_>, _: f32, _: &mut RowPass) {}
 
+/// Whether a row is solved in masked chunks: a torn one. On WebAssembly the strain limit solves all
+/// rows so, because kernels of its own would make the module 4 kB larger.
+#[inline(always)]
+fn is_masked<const LAW: u8>(row: &LinkRow) -> bool {
+    row.is_torn || (LAW == BOUND && cfg!(target_arch = "wasm32"))
+}
+
 /// Solves intact rows, up to the first one of another pattern.
 #[inline(always)]
 fn solve_intact<S: Simd, const LAW: u8, const PATTERN: u8>(
@@ -169,7 +176,7 @@ fn solve_intact<S: Simd, const LAW: u8, const PATTERN: u8>(
             break;
         }
         pass.has_scalar |= simd_link_count_of::<PATTERN>(row) < row.count as usize;
-        if row.is_torn {
+        if is_masked::<LAW>(row) {
             pass.has_torn = true;
             number += 1;
             continue;
@@ -195,7 +202,7 @@ fn solve_torn<S: Simd, const LAW: u8, const PATTERN: u8>(
     _: &mut RowPass,
 ) {
     let pointers = GridPointers::new(slices);
-    for row in rows.iter().filter(|row| row.is_torn) {
+    for row in rows.iter().filter(|row| is_masked::<LAW>(row)) {
         let (count, parameters) =
             (simd_link_count_of::<PATTERN>(row), RowParameters { scale, rest: row.rest });
         let (start, mut done) = (pointers.cursor::<PATTERN>(row, count), 0);

@@ -32,6 +32,10 @@ pub(crate) struct SparseColor<'a> {
     lambda: &'a mut [f32],
 }
 
+/// Whether the links of a colour are solved side by side. On WebAssembly they are not: the kernels
+/// would make the module larger, and few links are sparse.
+const HAS_LANES: bool = cfg!(not(target_arch = "wasm32"));
+
 /// A particle layout with a SIMD kernel for sparse links.
 pub(crate) trait SparseLayout: ParticleAccess {
     /// Solves links that share no particle, under the law `law`.
@@ -74,13 +78,13 @@ pub(crate) fn solve<const LAW: u8, P: SparseLayout>(
         compliance: &links.compliance,
         lambda: &mut links.lambda,
     };
-    if is_colored {
+    if is_colored && HAS_LANES {
         return particles.solve_simd(level, color, LAW, scale);
     }
     let count = color.a.len();
     for number in 0..count {
         let at = if order == SweepOrder::Forward { number } else { count - 1 - number };
-        color.solve_chunk::<_, P, LAW>(Scalar, at, particles, scale);
+        color.solve_link::<P, LAW>(at, particles, scale);
     }
 }
 
@@ -144,11 +148,22 @@ fn solve_color<S: Simd, P: ParticleAccess, const LAW: u8>(
         color.solve_chunk::<S, P, LAW>(s, at, particles, scale);
     }
     for at in whole..count {
-        color.solve_chunk::<_, P, LAW>(Scalar, at, particles, scale);
+        color.solve_link::<P, LAW>(at, particles, scale);
     }
 }
 
 impl SparseColor<'_> {
+    /// Solves link number `at`. Compiled once, not once per caller.
+    #[inline(never)]
+    fn solve_link<P: ParticleAccess, const LAW: u8>(
+        &mut self,
+        at: usize,
+        particles: &mut P,
+        scale: f32,
+    ) {
+        self.solve_chunk::<_, P, LAW>(Scalar, at, particles, scale);
+    }
+
     /// Solves `S::LANES` links, from `first` on.
     #[inline(always)]
     fn solve_chunk<S: Simd, P: ParticleAccess, const LAW: u8>(
