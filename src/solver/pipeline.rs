@@ -6,8 +6,9 @@
 //! ├─ rebase       the origin moves along with the cloth
 //! ├─ Colliders    number of substeps         Limit  store the velocities at the start of the tick
 //! ├─ Colliders    swept broad phase          Pairs  candidate pairs of surface collision
-//! ├─ Forces       gravity + air ─▶ acceleration     Tethers  slack
+//! ├─ Forces       pressure of closed pieces         Tethers  slack
 //! ├─ substep × substeps
+//! │  ├─ Forces        gravity + air ─▶ acceleration, once per tick or more often
 //! │  ├─ Predict       x ← x + displacement
 //! │  ├─ Hold          pins and grabs move their particles   Forces  pressure of closed pieces
 //! │  ├─ Bend          first implicit solve   Stretch  start of damping, particle layout
@@ -116,7 +117,6 @@ pub(crate) fn tick(world: &mut World) -> bool {
     timed!(world, Colliders, collide::begin_tick(world));
     timed!(world, Colliders, collide::solid_meshes::push_out(world));
     timed!(world, Pairs, surface_stages::begin_tick(world));
-    timed!(world, Forces, forces::compute_acceleration(world));
     timed!(world, Forces, pressure::begin_tick(world));
     if world.settings.tethers {
         timed!(world, Tethers, tether_slack::update(world));
@@ -177,6 +177,7 @@ fn advance_clock(world: &mut World) {
 
 /// Runs substep `number` of the tick, counted from 0.
 fn run_substep(world: &mut World, number: u32) {
+    timed!(world, Forces, forces::compute_acceleration(world, number));
     timed!(world, Predict, predict::predict_positions(world));
     timed!(world, Hold, targets::apply(world, number));
     timed!(world, Forces, pressure::apply(world));

@@ -110,6 +110,11 @@ impl Wind {
         WindSample { mean, turbulence: self.turbulence * speed, phase }
     }
 
+    /// Speed that gusts and turbulence do not exceed by much [m/s].
+    pub(crate) fn greatest_speed(&self) -> f32 {
+        self.velocity.length() * (1.0 + self.gust + self.turbulence)
+    }
+
     /// Acceleration of the sine field at `time` [s] for a particle at `x` relative to `origin` [m],
     /// in m/s².
     pub(crate) fn sine_field(&self, time: f64, origin: Vec3, x: Vec3) -> Vec3 {
@@ -141,15 +146,12 @@ impl WindSample {
         self.turbulence > 0.0
     }
 
-    /// Velocity that turbulence adds at a position relative to the origin [m/s].
+    /// Velocity that turbulence adds along an axis [m/s], at positions along the next axis and the
+    /// one after it, relative to the origin.
     #[inline(always)]
-    pub fn turbulence_at(&self, x: f32, y: f32, z: f32) -> [f32; 3] {
+    pub fn turbulence_along(&self, axis: usize, next: f32, last: f32) -> f32 {
         let [one, other] = TURBULENCE_WAVES;
-        [
-            sin_branchless(y * one + z * other + self.phase[0]) * self.turbulence,
-            sin_branchless(z * one + x * other + self.phase[1]) * self.turbulence,
-            sin_branchless(x * one + y * other + self.phase[2]) * self.turbulence,
-        ]
+        sin_branchless(next * one + last * other + self.phase[axis]) * self.turbulence
     }
 }
 
@@ -183,8 +185,11 @@ mod tests {
     fn the_wind_at_a_place_does_not_depend_on_the_origin() {
         let wind = Wind { velocity: Vec3::X * 3.0, turbulence: 0.5, ..Wind::default() };
         let (origin, x) = (Vec3::new(40.0, -17.0, 300.0), Vec3::new(0.4, -0.8, 1.1));
-        let gust = |origin, x: Vec3| wind.sample(1.25, origin).turbulence_at(x.x, x.y, x.z);
-        for (near, far) in gust(Vec3::ZERO, origin + x).iter().zip(gust(origin, x)) {
+        for axis in 0..3 {
+            let [near, far] = [(Vec3::ZERO, origin + x), (origin, x)].map(|(origin, x)| {
+                let (next, last) = (x[(axis + 1) % 3], x[(axis + 2) % 3]);
+                wind.sample(1.25, origin).turbulence_along(axis, next, last)
+            });
             assert!((near - far).abs() < 1.0e-3, "{near} and {far} m/s");
         }
         let field = |origin, x| wind.sine_field(1.25, origin, x);

@@ -128,9 +128,12 @@ fn each_map_changes_the_motion_and_taking_it_away_restores_the_bits() {
             cleared.set_map(map, Some(&scales)).unwrap();
             cleared.set_map(map, None).unwrap();
             assert_eq!(cleared.state_hash(), hash);
-            for cloth in [&mut painted, &mut cleared, &mut plain] {
+            for (number, cloth) in [&mut painted, &mut cleared, &mut plain].into_iter().enumerate()
+            {
                 cloth.step(20);
-                tear_and_cut(cloth);
+                // Where the map weakens the cloth, the wind may have torn all there is to tear.
+                let is_painted = number == 0;
+                assert!(try_tear_and_cut(cloth) || is_painted, "nothing tore or was cut");
                 cloth.unpin_all();
                 cloth.step(90);
             }

@@ -250,10 +250,11 @@ fn kite() -> GridDesc {
 #[test]
 fn drag_is_multiplied_by_the_mean_scale_of_the_corners() {
     for cloth in grid_and_mesh(&kite()) {
-        // Momentum along the wind after one tick.
+        // Momentum along the wind after one tick. The wind is so weak that the cloth takes up little
+        // of its speed in that time: the force is proportional to the drag.
         let momentum = |scale: &dyn Fn(Vec3) -> f32| {
             let mut cloth = cloth.clone();
-            let wind = Wind { velocity: Vec3::Z * 3.0, gust: 0.0, ..Wind::default() };
+            let wind = Wind { velocity: Vec3::Z * 0.3, gust: 0.0, ..Wind::default() };
             cloth.set_wind(wind).unwrap();
             cloth.set_map(Map::Drag, Some(&painted(&cloth, scale))).unwrap();
             cloth.step(1);
@@ -261,7 +262,7 @@ fn drag_is_multiplied_by_the_mean_scale_of_the_corners() {
         };
         let one = momentum(&|_| 1.0);
         let mut plain = cloth.clone();
-        plain.set_wind(Wind { velocity: Vec3::Z * 3.0, gust: 0.0, ..Wind::default() }).unwrap();
+        plain.set_wind(Wind { velocity: Vec3::Z * 0.3, gust: 0.0, ..Wind::default() }).unwrap();
         plain.step(1);
         assert_eq!(plain.mass_properties().momentum.z, one);
         for scale in [0.0_f32, 0.25, 2.0] {

@@ -8,7 +8,8 @@
 //!      u
 //! ```
 //! Method: a quadratic pressure per triangle as in flat-plate aerodynamics, shared among its
-//! corners by their rest areas. It runs once per tick and is explicit in time, so the pressure is
+//! corners by their rest areas. It is explicit in time: it runs once per tick, and more often the
+//! more of the relative speed drag removes in a tick, at most once per substep. The pressure is
 //! clamped to the range where explicit drag is stable.
 //!
 //! Reads positions, velocities, masses, wind, material and maps; writes `scratch.acceleration` and
@@ -16,7 +17,7 @@
 //! Invariant: forces add up in triangle order, so the bits do not depend on threads or SIMD level.
 
 use crate::math::columns::Columns;
-use crate::math::simd::{Float, Scalar, Simd, leveled, vectored};
+use crate::math::simd::{Float, Level, Scalar, Simd, leveled, vectored};
 use crate::math::{TINY, max};
 use crate::model::maps::{Map, mean};
 use crate::solver::vertex_sums::contribution::{
@@ -27,26 +28,59 @@ use crate::solver::world::{MIN_PARTICLES_PER_THREAD, World};
 use crate::state::wind::{WindModel, WindSample};
 use glam::Vec3;
 
-/// Largest share of a triangle's relative speed that drag may remove in one tick. Explicit drag is
-/// stable up to 1 and does not oscillate up to this value.
+/// Largest share of a triangle's relative speed that drag may remove before it is evaluated again.
+/// Explicit drag is stable up to 1 and does not oscillate up to this value.
 const MAX_DRAG_SHARE: f32 = 0.5;
+
+/// Share of the speed of the wind that drag may remove from cloth at rest before it is evaluated
+/// again: with more, a sheet that the wind tightens vibrates.
+const REGULAR_DRAG_SHARE: f32 = 0.1;
 
 /// Smallest number of particles that a thread gets when it evaluates the turbulent wind.
 const MIN_WIND_PARTICLES_PER_THREAD: usize = 2048;
 
-/// Fills `scratch.acceleration` [m/s²] with gravity and the force of the air over mass.
-pub(crate) fn compute_acceleration(world: &mut World) {
+/// Fills `scratch.acceleration` [m/s²] with gravity and the force of the air over mass, at the
+/// start of substep `number`; does nothing where the values of an earlier substep still hold.
+pub(crate) fn compute_acceleration(world: &mut World, number: u32) {
     let gravity = world.settings.gravity;
-    match world.wind.model {
-        WindModel::Surface if has_aerodynamics(world) => add_surface_wind(world, gravity),
-        WindModel::SineField if world.wind.velocity != Vec3::ZERO => add_sine_wind(world, gravity),
-        _ => world.scratch.acceleration.fill(gravity),
+    if world.wind.model == WindModel::Surface && has_aerodynamics(world) {
+        let interval = held_substeps(world);
+        if number.is_multiple_of(interval) {
+            add_surface_wind(world, gravity, number, interval);
+        }
+    } else if number == 0 {
+        if world.wind.model == WindModel::SineField && world.wind.velocity != Vec3::ZERO {
+            add_sine_wind(world, gravity);
+        } else {
+            world.scratch.acceleration.fill(gravity);
+        }
     }
 }
 
 fn has_aerodynamics(world: &World) -> bool {
     let material = &world.material;
     world.wind.air_density > 0.0 && (material.drag > 0.0 || material.lift > 0.0)
+}
+
+/// Number of substeps for which the force of the air is kept.
+fn held_substeps(world: &World) -> u32 {
+    let [_, most] = world.maps.range(Map::Drag);
+    let coefficient = max(world.material.drag * most, world.material.lift);
+    let flux = 0.5 * world.wind.air_density * coefficient * world.wind.greatest_speed();
+    let share = flux * world.settings.tick / (REGULAR_DRAG_SHARE * world.material.density);
+    // The conversion saturates; NaN becomes 0.
+    ((world.substeps as f32 / max(share, 1.0)) as u32).clamp(1, world.substeps)
+}
+
+/// Largest pressure of the wind on cloth at rest [Pa].
+pub(crate) fn greatest_wind_pressure(world: &World) -> f32 {
+    if world.wind.model != WindModel::Surface {
+        return 0.0;
+    }
+    let [_, most] = world.maps.range(Map::Drag);
+    let coefficient = world.material.drag * most + world.material.lift;
+    let speed = world.wind.greatest_speed();
+    0.5 * world.wind.air_density * coefficient * speed * speed
 }
 
 /// Adds a field of sine waves as an acceleration, whatever the orientation of the cloth.
@@ -58,18 +92,19 @@ fn add_sine_wind(world: &mut World, gravity: Vec3) {
 }
 
 /// Adds the pressure of the air on each triangle.
-fn add_surface_wind(world: &mut World, gravity: Vec3) {
+fn add_surface_wind(world: &mut World, gravity: Vec3, number: u32, interval: u32) {
     let (level, threads, p) = (world.level, world.threads, &world.particles);
-    let wind = world.wind.sample(world.clock.time, world.origin);
+    let step = world.settings.tick / world.substeps as f32;
+    let wind = world.wind.sample(world.clock.time + f64::from(number as f32 * step), world.origin);
     let particles = (p.x.slices(), p.v.slices(), world.scratch.relative_wind.slices_mut());
     threads.parallel_for(particles, MIN_WIND_PARTICLES_PER_THREAD, |(x, v, air)| {
-        subtract_velocity(level, &wind, x, v, air);
+        compute_relative_wind(level, &wind, x, v, air);
     });
     let half_density = 0.5 * world.wind.air_density;
     let pressure = Pressure {
         drag: half_density * world.material.drag,
         lift: half_density * world.material.lift,
-        max_mass_flux: MAX_DRAG_SHARE * world.material.density / world.settings.tick,
+        max_mass_flux: MAX_DRAG_SHARE * world.material.density / (interval as f32 * step),
     };
     let input = SumInput {
         triangles: &world.mesh.triangles,
@@ -97,34 +132,50 @@ fn add_surface_wind(world: &mut World, gravity: Vec3) {
     );
 }
 
-leveled! {
-    /// Computes the velocity of the air relative to each particle [m/s].
-    fn subtract_velocity(wind: &WindSample, x: [&[f32]; 3], v: [&[f32]; 3], air: [&mut [f32]; 3])
-        = subtract_velocity_lanes
-}
-
-#[inline(always)]
-fn subtract_velocity_lanes(
+/// Computes the velocity of the air relative to each particle [m/s].
+fn compute_relative_wind(
+    level: Level,
     wind: &WindSample,
     x: [&[f32]; 3],
     v: [&[f32]; 3],
-    mut air: [&mut [f32]; 3],
+    air: [&mut [f32]; 3],
 ) {
-    for ((air, mean), v) in air.iter_mut().zip(wind.mean.to_array()).zip(v) {
-        for (air, v) in air.iter_mut().zip(v) {
-            *air = mean - v;
+    for (axis, air) in air.into_iter().enumerate() {
+        subtract_velocity(level, wind.mean[axis], v[axis], air);
+        if wind.is_turbulent() {
+            add_turbulence(level, wind, axis, x[(axis + 1) % 3], x[(axis + 2) % 3], air);
         }
     }
-    if wind.is_turbulent() {
-        let ([x, y, z], [ax, ay, az]) = (x, air);
-        let particles = x.iter().zip(y).zip(z);
-        let air = ax.iter_mut().zip(ay).zip(az);
-        for (((x, y), z), ((ax, ay), az)) in particles.zip(air) {
-            let [sx, sy, sz] = wind.turbulence_at(*x, *y, *z);
-            *ax += sx;
-            *ay += sy;
-            *az += sz;
-        }
+}
+
+leveled! {
+    fn subtract_velocity(mean: f32, v: &[f32], air: &mut [f32]) = subtract_velocity_lanes
+}
+
+#[inline(always)]
+fn subtract_velocity_lanes(mean: f32, v: &[f32], air: &mut [f32]) {
+    for (air, v) in air.iter_mut().zip(v) {
+        *air = mean - v;
+    }
+}
+
+leveled! {
+    /// Adds the turbulence along an axis, from the positions along the other two.
+    fn add_turbulence(
+        wind: &WindSample, axis: usize, next: &[f32], last: &[f32], air: &mut [f32],
+    ) = add_turbulence_lanes
+}
+
+#[inline(always)]
+fn add_turbulence_lanes(
+    wind: &WindSample,
+    axis: usize,
+    next: &[f32],
+    last: &[f32],
+    air: &mut [f32],
+) {
+    for ((next, last), air) in next.iter().zip(last).zip(air) {
+        *air += wind.turbulence_along(axis, *next, *last);
     }
 }
 

@@ -23,14 +23,15 @@
 //! the chain has links.
 //!
 //! **Displacements.** A link under tension pulls along its direction at the *end* of the substep,
-//! not along its predicted direction: its pull is q (s + u − u₋), with q = λ / target. A link under
-//! compression pulls with λ n. So the displacements u of the particles solve a second tridiagonal
-//! system with one row per particle, eliminated backward and substituted forward:
+//! not along its predicted direction: its pull is q (s + u − u₋), where q is λ over the length at
+//! the end, target + α̃ λ. A link under compression pulls with λ n. So the displacements u of the
+//! particles solve a second tridiagonal system with one row per particle, eliminated backward and
+//! substituted forward:
 //!
 //! ```text
 //! (1 + w (q + q₊)) u − w q u₋ − w q₊ u₊ = w (t₊ n₊ − t n)
 //!
-//! q, t     of the link before the particle: q = λ / target, t = q l under tension;
+//! q, t     of the link before the particle: q = λ / (target + α̃ λ), t = q l under tension;
 //!          q = 0, t = λ under compression
 //! q₊, t₊   of the link after the particle
 //! ```
@@ -66,7 +67,7 @@ use crate::solver::world::World;
 const MIN_LOAD: f32 = 9.81;
 
 /// The strain of a hanging chain that sweeps may leave before chains are solved directly.
-const MAX_SWEEP_STRAIN: f32 = 1.0e-3;
+const MAX_SWEEP_STRAIN: f32 = 1.0e-5;
 
 /// Whether chains are solved directly.
 ///

@@ -29,6 +29,8 @@ pub(crate) struct LineStep {
     pub target: LaneArray,
     /// One over the target length [1/m].
     pub inv_target: LaneArray,
+    /// α̃ of a compliant link over its rest length: its strain per λ.
+    pub relative_compliance: LaneArray,
     /// Unit direction of the link; after substitution, the offset of u = share u₋ + offset [m].
     pub n: Lanes3,
     /// Coupling to the link before, w₋ (n₋·n): the negated off-diagonal entry of the first system.

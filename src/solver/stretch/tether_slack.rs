@@ -10,7 +10,7 @@
 //! σ, L, K        largest mass per area, longest d, least stretch stiffness where it is painted
 //!                least: σ g L / K is the strain at the top of a strip of length L that hangs under
 //!                its own weight; pressure p in closed pieces adds p / 2 to σ g, since a sphere of
-//!                radius L has p L / 2
+//!                radius L has p L / 2; the wind adds its greatest pressure on cloth at rest
 //! ```
 //! So tethers carry the load that the sweeps have not carried yet, and none of the load that really
 //! stretches the cloth. A cloth that was held apart contracts at the rate of the first term,
@@ -28,6 +28,7 @@
 use crate::math::simd::{Float, MAX_LANES, Simd, vectored};
 use crate::math::{max, min};
 use crate::model::maps::Map;
+use crate::solver::integrate::forces;
 use crate::solver::stretch::tethers::refresh_pin_positions;
 use crate::solver::world::World;
 use crate::state::pins::Pin;
@@ -92,7 +93,9 @@ fn compute_weight_strain(world: &World) -> f32 {
     let [_, heaviest] = world.mass_scales.range();
     let [weakest, _] = world.maps.range(Map::Stretch);
     let pressure = if world.has_pressure() { world.settings.pressure.abs() } else { 0.0 };
-    let load = material.density * world.settings.gravity.length() * heaviest + 0.5 * pressure;
+    let load = material.density * world.settings.gravity.length() * heaviest
+        + 0.5 * pressure
+        + forces::greatest_wind_pressure(world);
     let strain = load * longest / (softest * max(weakest, MIN_PAINTED_STRETCH));
     let own = MIN_SOFT_SLACK + LOAD_FACTOR * strain;
     let bound = world.settings.max_stretch;

@@ -216,7 +216,10 @@ impl<S: Simd> LaneGroup<S> {
         let both = last_w + self.load(to_w);
         let mut diagonal = both * s.splat(1.0 + REGULARIZATION);
         if SOFT {
-            diagonal = diagonal + self.softness(links, self.own(&chain_step.links), scale);
+            let softness = self.softness(links, self.own(&chain_step.links), scale);
+            diagonal = diagonal + softness;
+            let relative = softness * self.load(&step.inv_target);
+            self.store(&mut step.relative_compliance, relative);
         }
         let share = coupling * forward.inv_pivot;
         let pivot = (diagonal - share * coupling).max(both * s.splat(REGULARIZATION));
@@ -251,8 +254,12 @@ impl<S: Simd> LaneGroup<S> {
         let s = self.s;
         let (zero, one) = (s.splat(0.0), s.splat(1.0));
         let lambda = (self.load(&step.rhs) + backward.coupled_lambda) * self.load(&step.inv_pivot);
-        let q = s.select_or_zero(lambda, lambda * self.load(&step.inv_target));
-        let tension = s.select(lambda, lambda * self.load(&step.target), lambda);
+        let mut pull = lambda;
+        if SOFT {
+            pull = lambda / (one + self.load(&step.relative_compliance) * lambda.max(zero));
+        }
+        let q = s.select_or_zero(lambda, pull * self.load(&step.inv_target));
+        let tension = s.select(lambda, pull * self.load(&step.target), lambda);
         let w = self.load(&step.to[3]);
         let give = w / (one + w * (q + backward.hold));
         let share = give * q;
