@@ -3,7 +3,7 @@
 use crate::run::Quality::{self, Accurate, Default};
 use crate::run::Run;
 use crate::trial::Case;
-use crate::trial::Grade::{self, Excellent, Ok as Acceptable};
+use crate::trial::Grade::{self, Excellent};
 
 /// A run of a trial: case, start of the quantity's name, how it is played, and its grade.
 struct Held(&'static str, &'static str, Quality, u32, u32, Grade);
@@ -18,12 +18,14 @@ const HELD: &[Held] = &[
     Held("cantilever", "H over L, Γ = 10, 0.37 m", Default, 24, 60, Excellent),
     Held("cantilever", "length over bending length", Default, 56, 60, Excellent),
     Held("mesh", "H over L, Γ = 100", Default, 40, 60, Excellent),
-    Held("mesh", "H over L, Γ = 8.0042", Accurate, 24, 60, Excellent),
+    Held("mesh", "H over L, Γ = 8.0042", Default, 56, 60, Excellent),
+    Held("mesh", "H over L, Γ = 1", Default, 56, 60, Excellent),
     Held("catenary", "sag over S, L/S = 1.05", Default, 56, 60, Excellent),
     Held("catenary", "sag over S, L/S = 1.1", Default, 24, 120, Excellent),
     Held("taut", "sag over S, Ks = 100 ", Default, 40, 60, Excellent),
+    Held("taut", "sag over S, Ks = 1000 ", Accurate, 24, 120, Excellent),
     Held("hanging", "stretch by own weight, 1 m", Default, 56, 60, Excellent),
-    Held("hanging", "stretch by five times", Default, 24, 60, Acceptable),
+    Held("hanging", "stretch by five times", Default, 24, 60, Excellent),
     Held("hanging", "stretch with rigid links, 1 m", Default, 56, 60, Excellent),
     Held("flight", "drop in 1 s", Default, 24, 60, Excellent),
     Held("pendulum", "period, 90°", Default, 3, 60, Excellent),
@@ -32,6 +34,9 @@ const HELD: &[Held] = &[
     Held("swing", "energy left after 5 s, 30°", Default, 40, 60, Excellent),
     Held("period", "period, 0.37 m", Default, 40, 60, Excellent),
     Held("spin", "angular momentum", Default, 24, 60, Excellent),
+    Held("bulge", "bulge over the span at 5 m/s", Default, 24, 60, Excellent),
+    Held("bulge", "bulge over the span at 10 m/s", Default, 40, 120, Excellent),
+    Held("bulge", "bulge over the span at 10 m/s", Accurate, 24, 60, Excellent),
     Held("fall", "speed after 3 s, 0.15", Default, 24, 60, Excellent),
     Held("tilt", "angle, K = 1,", Default, 24, 60, Excellent),
     Held("friction", "slope at which it slides, µ = 0.5", Default, 24, 60, Excellent),
