@@ -65,9 +65,8 @@ pub(crate) struct IncompleteCholesky {
     rows: Vec<Row>,
     /// Columns of the current row.
     columns: Vec<u32>,
-    /// Entries of the current row by ascending size: negative size, column, 0. Between
-    /// factorisations a buffer to sort particles.
-    pub candidates: Vec<(f64, u32, u32)>,
+    /// Entries of the current row by ascending size: negative size, column, 0.
+    candidates: Vec<(f64, u32, u32)>,
 }
 
 impl IncompleteCholesky {

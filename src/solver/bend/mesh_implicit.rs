@@ -16,7 +16,7 @@
 //! particles change. Dot products sum in a fixed order, so the bits are the same on every platform.
 
 use crate::math::TINY;
-use crate::math::sort::sort_measured;
+use crate::math::sort::sort_by;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};
 use crate::model::bend_scale::{BendScale, BendScaleKey};
 use crate::model::hinge::hinge_normal;
@@ -204,19 +204,18 @@ impl MeshBend<'_> {
 
     /// Sorts the particles along the longest axis of the mesh at rest.
     fn sort_particles(&self, scratch: &mut MeshBendScratch, count: usize) {
-        let MeshBendScratch { order, rank, factors, .. } = scratch;
+        let MeshBendScratch { order, rank, .. } = scratch;
         let rest = |i: u32| self.rest[self.site[i as usize] as usize];
         let empty = [Vec3::INFINITY, Vec3::NEG_INFINITY];
         let [low, high] =
             (0..count as u32).map(rest).fold(empty, |[low, high], x| [low.min(x), high.max(x)]);
         let size = high - low;
         let axis = (1..3).fold(0, |most, axis| if size[axis] > size[most] { axis } else { most });
-        let keys = &mut factors.candidates;
-        keys.clear();
-        keys.extend((0..count as u32).map(|i| (f64::from(rest(i)[axis]), i, 0)));
-        sort_measured(keys);
-        order.clear();
-        order.extend(keys.iter().map(|(_, i, _)| *i));
+        if order.len() != count {
+            order.clear();
+            order.extend(0..count as u32);
+        }
+        sort_by(order, |p, q| rest(*p)[axis].total_cmp(&rest(*q)[axis]).then(p.cmp(q)));
         rank.resize(count, 0);
         for (at, i) in (0..).zip(&*order) {
             rank[*i as usize] = at;
