@@ -15,10 +15,10 @@ const zipped = (bytes) => gzipSync(bytes, { level: 9 }).length;
 
 /** The largest size of each file with gzip [B]. */
 const MAX_SIZES = {
-  "raw_bg.wasm": 435_000,
+  "raw_bg.wasm": 435_400,
   "plain_bg.wasm": 411_000,
   "light_bg.wasm": 270_500,
-  "code.js": 516_400,
+  "code.js": 517_000,
 };
 
 /** The largest size of all scripts that every page loads, with gzip [B]. */
