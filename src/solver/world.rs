@@ -207,10 +207,10 @@ pub(crate) struct World {
 #[derive(Clone, Debug)]
 pub(crate) struct TickScratch {
     /// Acceleration of each particle by gravity and air [m/s²]. Written by stage `Forces`, once per
-    /// tick.
+    /// tick or more often.
     pub acceleration: Columns,
-    /// Air velocity minus particle velocity [m/s]. Stage `Forces` writes and reads it once per
-    /// tick; `momentum` uses it as a buffer for positions [m].
+    /// Air velocity minus particle velocity [m/s]. Stage `Forces` writes it and reads it at once;
+    /// `momentum` uses it as a buffer for positions [m].
     pub relative_wind: Columns,
     /// Predicted displacement of each particle in this substep [m]. Written by stage `Predict`; the
     /// strain limit sets it to zero at the end of the tick.

@@ -110,7 +110,7 @@ impl Wind {
         WindSample { mean, turbulence: self.turbulence * speed, phase }
     }
 
-    /// Speed that gusts and turbulence do not exceed by much [m/s].
+    /// Estimate of the largest speed of the air: mean plus amplitudes of gusts and turbulence [m/s].
     pub(crate) fn greatest_speed(&self) -> f32 {
         self.velocity.length() * (1.0 + self.gust + self.turbulence)
     }

@@ -4,10 +4,10 @@
 //! M + h² K ≈ P = Uᵀ D U        U: unit upper triangle with few entries per row, D: diagonal
 //! ```
 //! Method: row by row (Jones and Plassmann, "An improved incomplete Cholesky factorization", TOMS
-//! 1995), dropping entries by size (Saad, "ILUT", 1994). A dropped entry is added to both pivots,
-//! so that rigid displacements stay exact (Gustafsson 1978), or if it is negative and not small
-//! subtracted, so that the difference to the matrix is positive (Ajiz and Jennings 1984). The size
-//! is relative to the masses, so P is nearly exact for soft and for narrow meshes.
+//! 1995). Entries below a size are dropped (Saad, "ILUT", 1994). Both pivots take on a dropped entry:
+//! its value if it is positive or small, so that rigid displacements stay exact (Gustafsson 1978);
+//! its absolute value otherwise, so that P is stiffer than the matrix (Ajiz and Jennings 1984). The
+//! size is relative to the masses, so P is nearly exact for soft and for narrow meshes.
 //!
 //! Reads the stiffness matrix and masses; `solve` reads and writes vectors of the particles.
 //! Invariant: a pivot is at least the mass, as in the exact factorisation, so P is positive
@@ -26,7 +26,8 @@ const MAX_ENTRIES: usize = 16;
 const MAX_DROPPED: f64 = 0.02;
 const MAX_DROPPED_4: f64 = MAX_DROPPED * MAX_DROPPED * MAX_DROPPED * MAX_DROPPED;
 
-/// Dropped negative entries up to this share of both masses are subtracted from the pivots.
+/// Dropped negative entries count as small, and reduce both pivots, up to this share of the lighter
+/// mass.
 const MAX_REMOVED: f32 = 0.02;
 
 /// End of a list of rows.

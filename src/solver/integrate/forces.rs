@@ -8,9 +8,9 @@
 //!      u
 //! ```
 //! Method: a quadratic pressure per triangle as in flat-plate aerodynamics, shared among its
-//! corners by their rest areas. It is explicit in time: it runs once per tick, and more often the
-//! more of the relative speed drag removes in a tick, at most once per substep. The pressure is
-//! clamped to the range where explicit drag is stable.
+//! corners by their rest areas. It is explicit in time. It runs once per tick; in wind so strong
+//! that drag would remove more than a tenth of its speed in a tick, it runs more often, at most once
+//! per substep. The pressure is clamped to the range where explicit drag is stable.
 //!
 //! Reads positions, velocities, masses, wind, material and maps; writes `scratch.acceleration` and
 //! `scratch.relative_wind`.
