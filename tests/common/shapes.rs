@@ -116,7 +116,7 @@ fn mesh_distance(desc: &ColliderDesc, p: Vec3) -> f32 {
         let [a, b, c] = [t[0], t[1], t[2]].map(|i| desc.positions[i as usize]);
         let is_within = |u: Vec3, v: Vec3, w: Vec3| {
             let n = u.cross(v);
-            n.dot(p) * n.dot(w) >= -1.0e-9
+            n.dot(p) * n.dot(w) >= -1.0e-6 * n.length_squared() * p.length() * w.length()
         };
         let normal = (b - a).cross(c - a).normalize();
         let normal = if normal.dot(a) > 0.0 { normal } else { -normal };

@@ -28,6 +28,7 @@ mod hard_constraints;
 mod impact_momentum;
 mod layers;
 mod maps;
+mod narrow_gaps;
 mod particle_collision;
 mod rest_with_intersections;
 mod small_and_fast_bodies;

@@ -14,6 +14,7 @@ use crate::solver::collide::long_pairs::LongPairs;
 use crate::solver::collide::long_triangles::LongTriangles;
 use crate::solver::collide::nearby_blocks::NearbyBlocks;
 use crate::solver::collide::push_accumulator::PushAccumulator;
+use crate::solver::collide::room::Room;
 use crate::state::colliders::Impulse;
 use glam::Vec3;
 
@@ -29,6 +30,8 @@ pub(crate) struct ContactScratch {
     pub collider_contacts: Vec<ColliderContact>,
     /// Scratch: the particles that another stage moved into a collider, as contacts.
     pub(super) projections: Vec<ColliderContact>,
+    /// Scratch: for each of their particles the sum of its corrections [m].
+    pub(super) net_corrections: Vec<Vec3>,
     /// Scratch: their indices.
     pub projected: Vec<u32>,
     /// The impulse on each live collider in this tick, about the world origin.
@@ -50,6 +53,7 @@ pub(crate) struct ContactScratch {
     pub(super) long_pairs: LongPairs,
     /// The positions of all particles in the local frame of one collider [m].
     pub(super) local_positions: Vec<Vec3>,
+    pub(super) room: Room,
     /// For each particle the index of its last contact in `collider_contacts`.
     pub(super) contact_slots: Vec<u32>,
     /// Scratch: whether each particle was found inside a collider; empty if none was.
@@ -86,6 +90,7 @@ impl ContactScratch {
         let contacts = particles.saturating_sub(self.collider_contacts.len());
         self.collider_contacts.reserve_exact(contacts);
         self.projections.reserve_total(particles);
+        self.net_corrections.resize(particles, Vec3::ZERO);
         self.projected.reserve_total(particles);
         self.impulses.reserve_total(bodies);
         self.late_pushes.reserve_total(bodies);
@@ -95,6 +100,7 @@ impl ContactScratch {
         self.long_pairs.reserve(triangles);
         self.local_positions.reserve_total(particles);
         self.contact_slots.resize(particles, 0);
+        self.room.reserve(particles);
         self.is_inside.reserve_total(particles);
     }
 }

@@ -21,6 +21,7 @@ use crate::math::columns::Columns;
 use crate::math::{max, min};
 use crate::model::maps::{Map, Maps};
 use crate::solver::collide::collider_contact::ColliderContact;
+use crate::solver::collide::room::{Room, least};
 use crate::state::colliders::ColliderBody;
 use crate::state::settings::BdfScheme;
 use glam::Vec3;
@@ -62,15 +63,18 @@ impl ContactMaterial {
 pub(super) struct ContactScales<'a> {
     friction: Option<&'a [f32]>,
     thickness: Option<&'a [f32]>,
+    /// The share of all distances that each particle has room for.
+    room: Option<&'a [f32]>,
     /// The least and the largest scale of the thickness.
     pub thickness_range: [f32; 2],
 }
 
 impl<'a> ContactScales<'a> {
-    pub fn of(maps: &'a Maps) -> Self {
+    pub fn new(maps: &'a Maps, room: &'a Room) -> Self {
         Self {
             friction: maps.get(Map::Friction),
             thickness: maps.get(Map::Thickness),
+            room: room.shares(),
             thickness_range: maps.range(Map::Thickness),
         }
     }
@@ -85,9 +89,13 @@ impl<'a> ContactScales<'a> {
     /// The scale of the distance of an edge or a triangle: the least of its corners, so that it does
     /// not push a corner away that keeps less.
     pub fn thickness(&self, corners: &[usize]) -> f32 {
-        let least =
-            |scales: &[f32]| corners.iter().fold(f32::INFINITY, |least, i| min(scales[*i], least));
-        self.thickness.map_or(1.0, least)
+        least(self.thickness, corners) * self.room(corners)
+    }
+
+    /// The share of all distances that there is room for.
+    #[inline(always)]
+    fn room(&self, corners: &[usize]) -> f32 {
+        least(self.room, corners)
     }
 }
 
@@ -170,7 +178,8 @@ impl LocalParticles<'_> {
     /// Returns the distance that a particle keeps from the shape [m].
     #[inline(always)]
     pub fn gap_of(&self, i: usize) -> f32 {
-        self.gap * self.contact_scales.thickness(&[i]) + self.margin
+        self.gap * self.contact_scales.thickness(&[i])
+            + self.margin * self.contact_scales.room(&[i])
     }
 
     /// Returns the largest distance that a particle keeps [m].

@@ -160,6 +160,12 @@ impl NearbyBlocks {
             candidates: self.candidates.of_range(&entry.candidates),
         }
     }
+
+    /// Returns whether particles are near more than one collider.
+    pub(super) fn are_several_near(&self) -> bool {
+        let near = self.entries.iter().filter(|one| one.first_particles < one.first_triangles);
+        near.take(2).count() == 2
+    }
 }
 
 impl SweptBounds {

@@ -112,6 +112,31 @@ pub(super) fn solve_particle(
     particles.apply_local_correction(i, end, penetration, correction);
 }
 
+/// Returns the distance of a point from a shape [m]: negative inside a solid, and behind a surface
+/// that its way from `start` to `end` crosses. `most` if it is farther away from all `faces` near it.
+#[inline(never)]
+pub(super) fn signed_distance(
+    shape: &CollisionShape,
+    faces: &[u32],
+    [start, end]: [Vec3; 2],
+    most: f32,
+) -> f32 {
+    match shape {
+        CollisionShape::ConvexHull(body, _) => match faces {
+            [] => most,
+            faces => CandidateFaces { body, faces }.signed_distance(end).0,
+        },
+        CollisionShape::TriangleSurface(surface, _) => {
+            let nearby = CandidateTriangles { surface, triangles: faces };
+            match nearby.first_crossing(start, end) {
+                Some(point) => (end - point.at).dot(point.outward),
+                None => nearby.closest(end, start, most).map_or(most, |point| point.distance),
+            }
+        }
+        _ => -shape.depth(end),
+    }
+}
+
 /// Smallest gap to surfaces without an inside [m]: for a point on the surface the side is unknown.
 const MIN_SURFACE_GAP: f32 = 1.0e-4;
 

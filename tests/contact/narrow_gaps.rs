@@ -1,0 +1,79 @@
+//! Two bodies that leave the cloth less room than the distances that it keeps from both.
+//!
+//! The one that was solved last used to take all of its distance, and pushed the cloth into the other.
+
+use crate::common::shapes::{octahedron, signed_distance, sphere_mesh};
+use muslin::glam::Vec3;
+use muslin::{Cloth, ColliderDesc, GridDesc, SelfCollision, Shape};
+
+/// The distance that the cloth keeps from each body [m].
+const THICKNESS: f32 = 0.01;
+/// The room between the bodies when they are nearest [m].
+const ROOM: f32 = 0.007;
+/// Half the size of a body along the line between them [m].
+const RADIUS: f32 = 0.1;
+/// Depth that counts as inside [m].
+const TOLERANCE: f32 = 1.0e-4;
+
+fn hung_sheet(self_collision: SelfCollision, max_stretch: f32) -> Cloth {
+    let mut desc = GridDesc { columns: 25, rows: 25, spacing: 0.02, ..GridDesc::default() };
+    desc.origin = Vec3::new(-0.24, 0.0, 0.0);
+    desc.settings.self_collision = self_collision;
+    desc.settings.max_stretch = max_stretch;
+    Cloth::grid(&desc).unwrap()
+}
+
+/// Moves two bodies to [`ROOM`] from both sides of a hung sheet, then past each other sideways, one
+/// faster than the other, at `speed` [m/s] and less.
+fn squeeze(body: &ColliderDesc, self_collision: SelfCollision, max_stretch: f32, speed: f32) {
+    let case = format!("{:?}, {self_collision:?}, bound {max_stretch}, {speed} m/s", body.shape);
+    let mut cloth = hung_sheet(self_collision, max_stretch);
+    let desc = |side: f32, distance: f32, along: f32| ColliderDesc {
+        position: Vec3::new(along, -0.35, side * (RADIUS + 0.5 * distance)),
+        thickness: THICKNESS,
+        ..body.clone()
+    };
+    let at = |time: f32| {
+        let distance = ROOM + (0.2 - speed * time).max(0.0);
+        let along = speed * (time - 0.2 / speed).clamp(0.0, 0.12 / speed);
+        [desc(-1.0, distance, -0.3 * along), desc(1.0, distance, along)]
+    };
+    let bodies = at(0.0).map(|body| cloth.add_collider(&body).unwrap());
+    for tick in 1..=(0.4 / speed * 120.0) as u32 {
+        let now = at(tick as f32 / 120.0);
+        for (body, desc) in bodies.iter().zip(&now) {
+            cloth.move_collider(*body, desc.position, desc.rotation).unwrap();
+        }
+        cloth.step(1);
+        for (desc, x) in now.iter().flat_map(|d| cloth.positions().iter().map(move |x| (d, *x))) {
+            let depth = -signed_distance(desc, x);
+            assert!(depth < TOLERANCE, "{case}, tick {tick}: {x} is {depth} m inside");
+        }
+        let stats = cloth.stats();
+        assert_eq!(stats.free_inside, 0, "{case}, tick {tick}");
+        let is_bounded = max_stretch == 0.0 || stats.max_stretch < max_stretch + 1.0e-4;
+        assert!(is_bounded, "{case}, tick {tick}: stretched by {}", stats.max_stretch);
+    }
+}
+
+#[test]
+fn cloth_between_two_bodies_stays_outside_both_and_within_its_stretch() {
+    let solid = |shape| ColliderDesc {
+        shape,
+        radius: RADIUS,
+        top_radius: RADIUS,
+        half_height: 0.1,
+        half_extents: Vec3::splat(RADIUS),
+        ..ColliderDesc::default()
+    };
+    let [ball, capsule, cuboid] = [Shape::Sphere, Shape::Capsule, Shape::Box].map(solid);
+    for body in [ball, capsule, cuboid, octahedron(RADIUS), sphere_mesh(RADIUS, 12)] {
+        for self_collision in [SelfCollision::None, SelfCollision::Surface] {
+            for max_stretch in [0.0, 0.05] {
+                for speed in [0.2, 1.0, 3.0] {
+                    squeeze(&body, self_collision, max_stretch, speed);
+                }
+            }
+        }
+    }
+}
