@@ -72,17 +72,24 @@ impl CollisionShape {
         matches!(self, Self::TriangleSurface(surface, _) if surface.deforms())
     }
 
+    /// Returns the shape if it is one of the solids whose distance takes no search.
+    pub fn solid(&self) -> Option<&dyn SignedDistance> {
+        match self {
+            Self::HalfSpace(solid) => Some(solid),
+            Self::Sphere(solid) => Some(solid),
+            Self::Capsule(solid) => Some(solid),
+            Self::Cuboid(solid, _) => Some(solid),
+            Self::ConvexHull(..) | Self::TriangleSurface(..) | Self::Heightfield(_) => None,
+        }
+    }
+
     /// Returns how deep a point is inside [m]: 0 or less outside, beside a heightfield and for
     /// triangle surfaces, which have two sides.
     pub fn depth(&self, p: Vec3) -> f32 {
         let distance = match self {
-            Self::HalfSpace(solid) => solid.signed_distance(p).0,
-            Self::Sphere(solid) => solid.signed_distance(p).0,
-            Self::Capsule(solid) => solid.signed_distance(p).0,
-            Self::Cuboid(solid, _) => solid.signed_distance(p).0,
             Self::ConvexHull(body, _) => body.largest_distance(p),
-            Self::TriangleSurface(..) => 0.0,
             Self::Heightfield(terrain) => terrain.signed_distance(p).map_or(0.0, |one| one.0),
+            _ => self.solid().map_or(0.0, |solid| solid.signed_distance(p).0),
         };
         -distance
     }

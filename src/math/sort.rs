@@ -41,12 +41,12 @@ pub(crate) fn sort_groups<T: Ord + Copy>(list: &mut [T], group: fn(&T) -> u32) {
 #[inline]
 pub(crate) fn sort_by<T>(list: &mut [T], mut order: impl FnMut(&T, &T) -> Ordering) {
     let is_less = &mut |a: &T, b: &T| order(a, b) == Ordering::Less;
-    if (1..list.len()).all(|at| !is_less(&list[at], &list[at - 1])) {
-        return;
-    }
     // The WebAssembly module contains only the simpler half.
     if cfg!(target_arch = "wasm32") {
-        return insertion_or_heap_sort(list, is_less);
+        return sort_simply(list.len(), &mut Entries { list, is_less });
+    }
+    if (1..list.len()).all(|at| !is_less(&list[at], &list[at - 1])) {
+        return;
     }
     // Twice the depth of perfect halving, then heapsort: the worst case stays n log n.
     let max_depth = 2 * (usize::BITS - list.len().leading_zeros());
@@ -138,24 +138,21 @@ pub(crate) fn select_by<T>(
 
 #[inline(never)]
 fn insertion_or_heap_sort<T>(list: &mut [T], is_less: &mut impl FnMut(&T, &T) -> bool) {
-    if list.len() <= SHORT {
-        for end in 1..list.len() {
-            let mut at = end;
-            while at > 0 && is_less(&list[at], &list[at - 1]) {
-                list.swap(at, at - 1);
-                at -= 1;
-            }
-        }
-        return;
+    if list.len() > SHORT || cfg!(target_arch = "wasm32") {
+        return sort_simply(list.len(), &mut Entries { list, is_less });
     }
-    heapsort(list.len(), &mut Entries { list, is_less });
+    for end in 1..list.len() {
+        let mut at = end;
+        while at > 0 && is_less(&list[at], &list[at - 1]) {
+            list.swap(at, at - 1);
+            at -= 1;
+        }
+    }
 }
 
-/// A list without its element type, so that heapsort is compiled only once.
-trait Heap {
-    /// Returns the index of the greatest of entry `at` and its children `child` and `child + 1`.
-    /// Only entries before `end` count.
-    fn greatest(&mut self, at: usize, child: usize, end: usize) -> usize;
+/// A list without its element type, so that what sorts it is compiled only once.
+trait AnyList {
+    fn is_less(&mut self, a: usize, b: usize) -> bool;
 
     fn swap(&mut self, a: usize, b: usize);
 }
@@ -165,13 +162,9 @@ struct Entries<'a, T, F> {
     is_less: &'a mut F,
 }
 
-impl<T, F: FnMut(&T, &T) -> bool> Heap for Entries<'_, T, F> {
-    fn greatest(&mut self, at: usize, mut child: usize, end: usize) -> usize {
-        let list = &self.list[..end];
-        if child + 1 < end && (self.is_less)(&list[child], &list[child + 1]) {
-            child += 1;
-        }
-        if (self.is_less)(&list[at], &list[child]) { child } else { at }
+impl<T, F: FnMut(&T, &T) -> bool> AnyList for Entries<'_, T, F> {
+    fn is_less(&mut self, a: usize, b: usize) -> bool {
+        (self.is_less)(&self.list[a], &self.list[b])
     }
 
     fn swap(&mut self, a: usize, b: usize) {
@@ -179,8 +172,25 @@ impl<T, F: FnMut(&T, &T) -> bool> Heap for Entries<'_, T, F> {
     }
 }
 
+/// Sorts a short list by insertion, and a long one by heapsort if it is not in order.
+fn sort_simply(count: usize, list: &mut dyn AnyList) {
+    if count > SHORT {
+        if (1..count).any(|at| list.is_less(at, at - 1)) {
+            heapsort(count, list);
+        }
+        return;
+    }
+    for end in 1..count {
+        let mut at = end;
+        while at > 0 && list.is_less(at, at - 1) {
+            list.swap(at, at - 1);
+            at -= 1;
+        }
+    }
+}
+
 /// Heapsort: builds a heap, then repeatedly moves the greatest entry behind it.
-fn heapsort(count: usize, heap: &mut dyn Heap) {
+fn heapsort(count: usize, heap: &mut dyn AnyList) {
     for step in (0..count + count / 2).rev() {
         let (mut at, end) = if let Some(root) = step.checked_sub(count) {
             (root, count)
@@ -189,12 +199,15 @@ fn heapsort(count: usize, heap: &mut dyn Heap) {
             (0, step)
         };
         while 2 * at + 1 < end {
-            let greatest = heap.greatest(at, 2 * at + 1, end);
-            if greatest == at {
+            let mut child = 2 * at + 1;
+            if child + 1 < end && heap.is_less(child, child + 1) {
+                child += 1;
+            }
+            if !heap.is_less(at, child) {
                 break;
             }
-            heap.swap(at, greatest);
-            at = greatest;
+            heap.swap(at, child);
+            at = child;
         }
     }
 }
@@ -216,7 +229,8 @@ mod tests {
                     let (mut simply, mut list) = (list.clone(), list);
                     sort(&mut list);
                     assert_eq!(list, right, "{length} numbers below {most}");
-                    insertion_or_heap_sort(&mut simply, &mut |a, b| a < b);
+                    let is_less = &mut |a: &u64, b: &u64| a < b;
+                    sort_simply(simply.len(), &mut Entries { list: &mut simply, is_less });
                     assert_eq!(simply, right, "{length} numbers below {most}, without quicksort");
                 }
             }

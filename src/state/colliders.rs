@@ -16,6 +16,9 @@ use glam::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
+/// Whether colliders can deform. A constant, so that the compiler removes what handles it.
+const DEFORMS: bool = cfg!(feature = "facet-colliders");
+
 /// A handle to a collider of one cloth. It becomes stale when the collider is removed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Collider(pub(crate) u32);
@@ -196,17 +199,17 @@ impl ColliderBody {
 
     /// The deformation; `None` if the collider is rigid.
     pub fn deformation(&self) -> Option<&Deformation> {
-        self.deformation.as_deref()
+        self.deformation.as_deref().filter(|_| DEFORMS)
     }
 
     /// The deformation; `None` if the collider is rigid.
     pub fn deformation_mut(&mut self) -> Option<&mut Deformation> {
-        self.deformation.as_deref_mut()
+        self.deformation.as_deref_mut().filter(|_| DEFORMS)
     }
 
     /// Whether the collider deforms in the next tick.
     pub fn is_deforming(&self) -> bool {
-        self.deformation.as_ref().is_some_and(|one| one.is_moving())
+        self.deformation().is_some_and(|one| one.is_moving())
     }
 
     /// Whether the collider moves or deforms in the next tick.

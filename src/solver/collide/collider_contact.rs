@@ -25,6 +25,8 @@ pub(crate) struct ColliderContact {
     pub correction: Vec3,
     /// The distance that the particle keeps from the collider [m].
     pub gap: f32,
+    /// The distance from the collider, if another one pushes the particle towards it [m].
+    pub distance: f32,
     /// Where the particle was along the normal after the position pass [m].
     pub height: f32,
     /// How far surface collision pushed it along the normal [m].

@@ -57,24 +57,43 @@ pub(super) fn solve(
     part: [f32; 2],
     projection: Option<Projection>,
 ) {
-    solve_pass(world, frames, part, projection, None);
-    let contacts = &world.scratch.contacts;
-    let count = contacts.collider_contacts.len();
-    if count > 0 && contacts.nearby.are_several_near() {
-        solve_pass(world, frames, part, projection, Some(count));
-        squeezed::separate(world, frames);
-    }
+    let mut run = |pass| run_pass(world, frames, part, projection, pass);
+    run(Pass::First);
+    run(Pass::Again);
+    run(Pass::Distances);
 }
 
-/// Solves the contacts of each collider; with `again` only those of particles that another collider
-/// pushed into it, among the first `again` contacts.
-fn solve_pass(
+/// What is done with each collider.
+#[derive(Clone, Copy, PartialEq)]
+enum Pass {
+    /// Pushes particles and triangles out.
+    First,
+    /// Pushes particles out again that another collider pushed into this one.
+    Again,
+    /// Measures the distances of particles that two colliders push towards each other; then these are
+    /// separated.
+    Distances,
+}
+
+/// Runs one pass over all colliders. Without particles between two colliders only the first does
+/// anything.
+fn run_pass(
     world: &mut World,
     frames: &dyn Fn(&ColliderBody) -> [Transform; 2],
     part: [f32; 2],
     projection: Option<Projection>,
-    again: Option<usize>,
+    pass: Pass,
 ) {
+    let contacts = &mut world.scratch.contacts;
+    let count = contacts.collider_contacts.len();
+    let is_needed = match pass {
+        Pass::First => true,
+        Pass::Again => count > 0 && contacts.nearby.are_several_near(),
+        Pass::Distances => squeezed::select(contacts),
+    };
+    if !is_needed {
+        return;
+    }
     let scheme = world.scheme();
     let is_projection = projection.is_some();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
@@ -85,7 +104,7 @@ fn solve_pass(
         if neighbours.particle_blocks.is_empty() {
             continue;
         }
-        if let Some(deformation) = body.deformation_mut().filter(|_| again.is_none()) {
+        if let Some(deformation) = body.deformation_mut().filter(|_| pass == Pass::First) {
             deformation.pose(part);
         }
         let Some(shape) = body.collision_shape() else { continue };
@@ -121,8 +140,9 @@ fn solve_pass(
             contacts: &mut contacts.collider_contacts,
             contact_slots: &mut contacts.contact_slots,
         };
-        if let Some(count) = again {
-            squeezed::push_out_again(shape, &mut particles, &neighbours.candidates, count);
+        if pass != Pass::First {
+            let (candidates, is_again) = (&neighbours.candidates, pass == Pass::Again);
+            squeezed::visit(shape, &mut particles, candidates, count, is_again);
             continue;
         }
         let (clearance, pushes) = (&mut contacts.clearance, &mut contacts.pushes);
@@ -241,6 +261,9 @@ fn solve_pass(
                 break;
             }
         }
+    }
+    if pass == Pass::Distances {
+        squeezed::separate(&mut p.x, contacts);
     }
 }
 

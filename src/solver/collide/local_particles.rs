@@ -298,6 +298,7 @@ impl LocalParticles<'_> {
                 approach_velocity: self.v.get(i),
                 correction,
                 gap: self.gap_of(i),
+                distance: 0.0,
                 height: 0.0,
                 pushed: 0.0,
                 friction: self.material.friction * self.contact_scales.friction(&[i], &[1.0]),

@@ -79,10 +79,6 @@ pub(super) fn solve_particle(
     let depenetration = particles.depenetration;
     let nearby = |surface| CandidateTriangles { surface, triangles: candidates.faces(i) };
     let penetration = match shape {
-        CollisionShape::HalfSpace(solid) => solid_contact(solid, from, end, gap, depenetration),
-        CollisionShape::Sphere(solid) => solid_contact(solid, from, end, gap, depenetration),
-        CollisionShape::Capsule(solid) => solid_contact(solid, from, end, gap, depenetration),
-        CollisionShape::Cuboid(solid, _) => solid_contact(solid, from, end, gap, depenetration),
         CollisionShape::ConvexHull(body, _) => {
             let solid = CandidateFaces { body, faces: candidates.faces(i) };
             if solid.faces.is_empty() {
@@ -95,6 +91,7 @@ pub(super) fn solve_particle(
             surface_contact(&nearby(surface), from, end, max(gap, MIN_SURFACE_GAP))
         }
         CollisionShape::Heightfield(terrain) => terrain_contact(terrain, from, end, gap),
+        _ => shape.solid().and_then(|solid| solid_contact(solid, from, end, gap, depenetration)),
     };
     let Some(penetration) = penetration else { return };
     let carry = penetration.carry;
@@ -214,7 +211,7 @@ fn terrain_contact(terrain: &Heightfield, start: Vec3, end: Vec3, gap: f32) -> O
 /// Returns the penetration of a particle that moved from `start` to `end` at a convex body. One
 /// that started inside comes out step by step.
 fn solid_contact(
-    solid: &impl SignedDistance,
+    solid: &dyn SignedDistance,
     start: Vec3,
     end: Vec3,
     gap: f32,

@@ -11,75 +11,87 @@
 //! other one. For r < 1 the particle keeps r times all gaps until the tick ends: pushes to and fro
 //! would grip it by their friction, and triangles at it would be pushed like it.
 //!
-//! Reads contacts, colliders and their frames; writes positions, the corrections of contacts and
-//! `contacts.room`.
+//! Reads contacts and shapes; writes positions, `contacts.room`, and of contacts the corrections and
+//! distances.
 //! Invariant: only particles move that two colliders push towards each other.
 
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::transform::Transform;
+use crate::math::columns::Columns;
 use crate::math::max;
-use crate::solver::collide::collider_contact::ColliderContact;
+use crate::solver::collide::contact_scratch::ContactScratch;
 use crate::solver::collide::local_particles::LocalParticles;
 use crate::solver::collide::mid_phase::Candidates;
-use crate::solver::collide::particle_vs_shape;
-use crate::solver::world::World;
-use crate::state::colliders::ColliderBody;
+use crate::solver::collide::particle_vs_shape::{signed_distance, solve_particle};
+use glam::Vec3;
 
 /// The fraction of the gaps from which there is room enough; the rest covers rounding.
 const ENOUGH: f32 = 0.999;
 
-/// Pushes the particles of the first `count` contacts out of a shape if another collider pushed them
-/// into it.
-pub(super) fn push_out_again(
+/// The distance of a contact that [`visit`] will measure [m].
+const UNKNOWN: f32 = f32::INFINITY;
+
+/// Visits the first `count` contacts. If `is_again`, pushes particles out of a shape that another
+/// collider pushed into it; otherwise measures the unknown distances from it.
+#[inline(never)]
+pub(super) fn visit(
     shape: &CollisionShape,
     particles: &mut LocalParticles<'_>,
     candidates: &Candidates<'_>,
     count: usize,
+    is_again: bool,
 ) {
     for at in 0..count {
         let contact = &particles.contacts[at];
-        let i = contact.particle as usize;
+        let (i, is_own) = (contact.particle as usize, contact.body == particles.body);
+        if is_own == is_again || !is_again && contact.distance != UNKNOWN {
+            continue;
+        }
         let path = [particles.start_position(i), particles.end_position(i)];
-        if contact.body != particles.body
-            && particle_vs_shape::signed_distance(shape, candidates.faces(i), path, 0.0) < 0.0
-        {
-            particle_vs_shape::solve_particle(shape, particles, candidates, i);
+        // Farther away it only matters that there is room.
+        let most = if is_again { 0.0 } else { 4.0 * contact.gap };
+        let distance = signed_distance(shape, candidates.faces(i), path, most);
+        if !is_again {
+            particles.contacts[at].distance = distance;
+        } else if distance < 0.0 {
+            solve_particle(shape, particles, candidates, i);
         }
     }
 }
 
-/// Moves particles that two colliders push towards each other to where both leave them room.
-/// `frames` gives the frames of a collider at the start and at the end.
-#[inline(never)]
-pub(super) fn separate(world: &mut World, frames: &dyn Fn(&ColliderBody) -> [Transform; 2]) {
-    let (x, colliders) = (&mut world.particles.x, &world.colliders);
-    let (predicted, displacement) = (&world.scratch.predicted, &world.scratch.displacement);
-    let contacts = &mut world.scratch.contacts;
-    let (all, slots) = (&mut contacts.collider_contacts, &contacts.contact_slots);
-    let nearby = &contacts.nearby;
-    for at in 0..all.len() {
-        let i = all[at].particle as usize;
-        let last = slots[i] as usize;
-        let k = -all[at].normal.dot(all[last].normal);
-        if last == at || k <= 0.0 {
-            continue;
+/// Returns the last contact of the same particle, the normal of this one, and -1 times the cosine of
+/// their angle, if another collider pushes the particle towards this one.
+fn opposed(contacts: &ContactScratch, at: usize) -> Option<(usize, Vec3, f32)> {
+    let own = &contacts.collider_contacts[at];
+    let last = contacts.contact_slots[own.particle as usize] as usize;
+    let k = -own.normal.dot(contacts.collider_contacts[last].normal);
+    (last != at && k > 0.0).then_some((last, own.normal, k))
+}
+
+/// Marks the contacts of particles that two colliders push towards each other, and returns whether
+/// there are any.
+pub(super) fn select(contacts: &mut ContactScratch) -> bool {
+    let mut are_any = false;
+    for at in 0..contacts.collider_contacts.len() {
+        if let Some((last, ..)) = opposed(contacts, at) {
+            contacts.collider_contacts[at].distance = UNKNOWN;
+            contacts.collider_contacts[last].distance = UNKNOWN;
+            are_any = true;
         }
-        let (own, other) = (&all[at], &all[last]);
-        let distance = |contact: &ColliderContact| {
-            let body = colliders.iter().nth(contact.body as usize)?;
-            let faces = nearby.of_collider(contact.body as usize).candidates.faces(i);
-            let [from, to] = frames(body);
-            let start = predicted.get(i) - displacement.get(i);
-            let path = [from.point_to_local(start), to.point_to_local(x.get(i))];
-            let most = 2.0 * (own.gap + other.gap);
-            Some(particle_vs_shape::signed_distance(body.collision_shape()?, faces, path, most))
-        };
-        let (Some(to_own), Some(to_other)) = (distance(own), distance(other)) else { continue };
-        let share = max(k * to_own + to_other, 0.0) / (k * own.gap + other.gap);
+    }
+    are_any
+}
+
+/// Moves particles that two colliders push towards each other to where both leave them room.
+pub(super) fn separate(x: &mut Columns, contacts: &mut ContactScratch) {
+    for at in 0..contacts.collider_contacts.len() {
+        let Some((last, normal, k)) = opposed(contacts, at) else { continue };
+        let [own, other] = [at, last].map(|at| &contacts.collider_contacts[at]);
+        let share = max(k * own.distance + other.distance, 0.0) / (k * own.gap + other.gap);
         if share < ENOUGH {
-            let push = own.normal * (share * own.gap - to_own);
-            x.add(i, push);
-            all[at].correction += push;
+            let (i, step) = (own.particle as usize, share * own.gap - own.distance);
+            x.add(i, normal * step);
+            contacts.collider_contacts[at].correction += normal * step;
+            contacts.collider_contacts[last].distance -= k * step;
             contacts.room.narrow(i, share);
         }
     }
