@@ -21,6 +21,13 @@ fn crumpled(small: bool, ticks: u32) -> Cloth {
     cloth
 }
 
+/// Returns how far the particle that moves farthest is from its start after `ticks` ticks [m].
+fn largest_motion(cloth: &mut Cloth, ticks: u32) -> f32 {
+    let before = cloth.positions().to_vec();
+    cloth.step(ticks);
+    cloth.positions().iter().zip(&before).map(|(x, old)| x.distance(*old)).fold(0.0, f32::max)
+}
+
 fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
     cloth.indices().chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect()
 }
@@ -31,12 +38,14 @@ fn crumpled_paper_is_a_ball_and_comes_to_rest() {
     for (small, ticks) in [(false, 60), (true, 60), (true, 75), (true, 90)] {
         let mut cloth = crumpled(small, ticks);
         cloth.step(600);
-        let before = cloth.positions().to_vec();
-        cloth.step(120);
         let unit = Sheet::Paper.unit();
-        let distances = cloth.positions().iter().zip(&before).map(|(x, old)| x.distance(*old));
-        let largest = distances.fold(0.0, f32::max) / unit;
-        assert!(largest < 0.03, "{small}, {ticks}: a particle moves {largest} units in a second");
+        let mut motion = [(); 3].map(|()| largest_motion(&mut cloth, 120) / unit);
+        motion.sort_by(f32::total_cmp);
+        // A layer may still slip off another once; then the ball is at rest again.
+        assert!(
+            motion[1] < 0.01 && motion[2] < 0.1,
+            "{small}, {ticks}: a particle moves {motion:?} units in a second"
+        );
         let x = cloth.positions();
         let centre = x.iter().sum::<Vec3>() / x.len() as f32;
         // The corners of the flat sheet are 4.2 units away.
