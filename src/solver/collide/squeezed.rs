@@ -63,7 +63,8 @@ pub(super) fn visit(
 fn opposed(contacts: &ContactScratch, at: usize) -> Option<(usize, Vec3, f32)> {
     let own = &contacts.collider_contacts[at];
     let last = contacts.contact_slots[own.particle as usize] as usize;
-    let k = -own.normal.dot(contacts.collider_contacts[last].normal);
+    let other = contacts.collider_contacts.get(last).filter(|one| one.particle == own.particle)?;
+    let k = -own.normal.dot(other.normal);
     (last != at && k > 0.0).then_some((last, own.normal, k))
 }
 
