@@ -41,14 +41,12 @@ fn verify(options: &[String], names: &[String]) -> Result<bool, String> {
         }
         _ => return Err("the options are --short and --list".into()),
     };
-    let scenes = scenes::all();
-    if let Some(unknown) = names.iter().find(|name| !scenes.iter().any(|s| s.name == **name)) {
-        return Err(format!("there is no scene {unknown:?}; --list prints the names"));
-    }
-    let is_chosen = |name: &str| names.is_empty() || names.iter().any(|chosen| chosen == name);
+    let scenes = if names.is_empty() { Ok(scenes::all()) } else { scenes::named(names) };
+    let scenes =
+        scenes.map_err(|name| format!("there is no scene {name:?}; --list prints the names"))?;
     let mut reports = Vec::new();
     println!("{}", table::HEADER);
-    for scene in scenes.iter().filter(|scene| is_chosen(&scene.name)) {
+    for scene in &scenes {
         let ticks = if is_short { scene.short_ticks } else { Some(scene.ticks) };
         if let Some(ticks) = ticks {
             let report = run::run(scene, ticks)?;

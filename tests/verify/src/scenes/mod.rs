@@ -7,6 +7,7 @@ mod falls;
 mod garments;
 mod hands;
 mod impacts;
+mod random;
 mod small_bodies;
 mod topology;
 
@@ -24,8 +25,21 @@ pub fn all() -> Vec<Scene> {
         garments::scenes(),
         hands::scenes(),
         topology::scenes(),
+        random::scenes(),
     ];
     groups.into_iter().flatten().collect()
+}
+
+/// Returns the scenes with these names, or the first name that no scene has.
+pub fn named(names: &[String]) -> Result<Vec<Scene>, String> {
+    let mut scenes = all();
+    let mut chosen = Vec::new();
+    for name in names {
+        let listed = scenes.iter().position(|scene| scene.name == *name);
+        let scene = listed.map(|index| scenes.remove(index)).or_else(|| random::named(name));
+        chosen.push(scene.ok_or_else(|| name.clone())?);
+    }
+    Ok(chosen)
 }
 
 #[cfg(test)]
