@@ -227,10 +227,18 @@ pub fn swung(body: &[Vec3], angle: f32) -> Vec<Vec3> {
 /// The normals of the triangles that share this point count by their angles there (Bærentzen and
 /// Aanæs, "Signed distance computation using the angle weighted pseudonormal", 2005).
 pub fn depth_in_tube(tube: &[Vec3], indices: &[u32], x: Vec3) -> f32 {
-    let corners = |ids: &[u32]| [0, 1, 2].map(|k| tube[ids[k] as usize]);
-    let nearest: Vec<(f32, f32)> =
-        indices.chunks(3).map(|ids| distance_and_side(corners(ids), x)).collect();
-    let distance = nearest.iter().map(|(distance, _)| *distance).fold(f32::INFINITY, f32::min);
+    let (mut nearest, mut distance) = (Vec::new(), f32::INFINITY);
+    for ids in indices.chunks(3) {
+        let [a, b, c] = [0, 1, 2].map(|k| tube[ids[k] as usize]);
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let gap = (low - x).max(x - high).max(Vec3::ZERO).length();
+        // Farther than the nearest so far by more than what counts as tied.
+        if gap <= distance + 1.0e-6 {
+            let (other, side) = distance_and_side([a, b, c], x);
+            distance = distance.min(other);
+            nearest.push((other, side));
+        }
+    }
     let tied = nearest.iter().filter(|(other, _)| *other <= distance + 1.0e-6);
     if tied.map(|(_, side)| side).sum::<f32>() < 0.0 { distance } else { 0.0 }
 }
