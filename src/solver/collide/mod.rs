@@ -124,8 +124,6 @@ pub(crate) fn project_out(world: &mut World, projection: Projection) {
         world.scratch.contacts.long.invalidate();
     }
     broad_phase::refresh(world, [1.0, 0.0]);
-    // Those of the last substep: other lists have reused their slots since.
-    world.scratch.contacts.collider_contacts.clear();
     let frames = |body: &ColliderBody| [body.next.to_transform(); 2];
     collider_solver::solve(world, &frames, [1.0, 0.0], Some(projection));
     world.scratch.contacts.collider_contacts.clear();
