@@ -13,8 +13,8 @@ pub fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
     command
 }
 
-/// The cargo that runs this program. In CI, where nothing is built twice, it makes no incremental
-/// builds, which take a quarter longer.
+/// The cargo that runs this program. In CI, where nothing is built twice, incremental builds are
+/// off: they take longer.
 pub fn cargo(args: &[&str]) -> Command {
     let mut cargo = command(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.args(args);

@@ -62,10 +62,9 @@ pub(super) fn visit(
 /// their angle, if another collider pushes the particle towards this one.
 fn opposed(contacts: &ContactScratch, at: usize) -> Option<(usize, Vec3, f32)> {
     let own = &contacts.collider_contacts[at];
-    // In the last phase the contacts of the last substep are listed too, whose slots were reused: they
-    // may name the contact of another particle, or none.
     let last = contacts.contact_slots[own.particle as usize] as usize;
-    let other = contacts.collider_contacts.get(last)?;
+    // The slot of a contact from before the last phase may have been reused.
+    let other = contacts.collider_contacts.get(last).filter(|one| one.particle == own.particle)?;
     let k = -own.normal.dot(other.normal);
     (last != at && k > 0.0).then_some((last, own.normal, k))
 }

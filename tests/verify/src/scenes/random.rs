@@ -16,8 +16,8 @@ use std::f32::consts::TAU;
 
 /// The first seeds, which are in the list.
 const SEEDS: u32 = 48;
-/// More seeds in the list. In 475 contacts of the last substep met those of the last phase, and their
-/// indices were mixed up.
+/// More seeds in the list: 475 once made the library panic, because indices of contacts were out of
+/// date.
 const MORE_SEEDS: [u32; 1] = [475];
 const TICKS: u32 = 90;
 /// Length of a tick [s].
@@ -119,6 +119,7 @@ impl Path {
     }
 }
 
+/// Returns the share of its way that a point has gone, which comes and goes `rate` times per second.
 fn share(rate: f32, tick: u32) -> f32 {
     0.5 - 0.5 * (TAU * rate * tick as f32 * TICK).cos()
 }
