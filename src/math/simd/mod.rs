@@ -153,9 +153,13 @@ impl Level {
 /// compiled for `level`. The body is a plain loop that the compiler vectorises.
 ///
 /// ```text
-/// leveled! { fn name(arguments…) = body }          one body for all levels
-/// leveled! { fn name(arguments…) = body, wide }    `wide` at AVX2 and AVX-512
+/// leveled! { fn name(arguments…) = body }                 one body for all levels
+/// leveled! { fn name(arguments…) = body, wide }           `wide` at AVX2 and AVX-512
+/// leveled! { fn name(arguments…) = body, wide, Avx2 }     at AVX-512, the copy for AVX2 is called
 /// ```
+///
+/// The last form suits loops bound by square roots and divisions: a 512-bit instruction does as
+/// many of them per cycle as a 256-bit one.
 ///
 /// The bodies must be `#[inline(always)]`, so that they are compiled inside the function that
 /// enables the instructions.
@@ -169,6 +173,14 @@ macro_rules! leveled {
         $(#[$doc:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?)
             = $body:path, $fast:path
     ) => {
+        $crate::math::simd::leveled! {
+            $(#[$doc])* $vis fn $name($($arg: $type),*) = $body, $fast, Avx512
+        }
+    };
+    (
+        $(#[$doc:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?)
+            = $body:path, $fast:path, $widest:ident
+    ) => {
         $(#[$doc])*
         // V8 does not optimise functions above 61,440 bytes of bytecode; inlined kernels add up.
         #[cfg_attr(target_arch = "wasm32", inline(never))]
@@ -179,15 +191,13 @@ macro_rules! leveled {
                 fn avx2($($arg: $type),*) {
                     $fast($($arg),*);
                 }
-                #[target_feature(enable = "avx512f,avx512vl")]
-                fn avx512($($arg: $type),*) {
-                    $fast($($arg),*);
-                }
+                let widest =
+                    $crate::math::simd::leveled!(@$widest avx2, $fast, $($arg: $type),*);
                 match level {
                     // SAFETY: `Level::best` returned this level, so the CPU has these instructions.
                     $crate::math::simd::Level::Avx2 => return unsafe { avx2($($arg),*) },
                     // SAFETY: as above.
-                    $crate::math::simd::Level::Avx512 => return unsafe { avx512($($arg),*) },
+                    $crate::math::simd::Level::Avx512 => return unsafe { widest($($arg),*) },
                     _ => {}
                 }
             }
@@ -200,6 +210,14 @@ macro_rules! leveled {
             baseline($($arg),*);
         }
     };
+    (@Avx2 $avx2:ident, $body:path, $($arg:ident: $type:ty),*) => { $avx2 };
+    (@Avx512 $avx2:ident, $body:path, $($arg:ident: $type:ty),*) => {{
+        #[target_feature(enable = "avx512f,avx512vl")]
+        fn avx512($($arg: $type),*) {
+            $body($($arg),*);
+        }
+        avx512
+    }};
 }
 pub(crate) use leveled;
 
