@@ -125,11 +125,7 @@ pub fn run(options: &[String]) -> Result {
 /// Step `bits`: the script and the scenes in optimised builds, also under other floating-point
 /// modes and on several threads, natively and on the other kind of processor; then the table.
 pub fn test() -> Result {
-    // With the feature a cloth still runs on one thread unless a test asks for more.
-    let tests = ["test", "--profile", TEST_PROFILE, "--lib", "--test=golden", "--test=*threads"];
-    let packages = ["--package=muslin", "--package=muslin-golden"];
-    let features = "--features=muslin/parallel,muslin-golden/parallel";
-    shell::run(shell::cargo(&tests).args(packages).arg(features))?;
+    shell::run(&mut cargo_test(&["--lib", "--test=golden", "--test=*threads"]))?;
     if can_emulate() {
         setup::ensure_target(AARCH64)?;
         let modes = ["test", "--profile", TEST_PROFILE, "--package", PACKAGE, "--test", "golden"];
@@ -138,6 +134,16 @@ pub fn test() -> Result {
         shell::run(cargo.args(["--", "modes::every_call", "modes::the_modes"]))?;
     }
     compare()
+}
+
+/// Returns the command that runs tests of the library in an optimised build. Commands with more
+/// packages share that build, because `cargo` gives it the same features for all of them.
+pub fn cargo_test(tests: &[&str]) -> Command {
+    let mut cargo = shell::cargo(&["test", "--profile", TEST_PROFILE]);
+    cargo.args(tests).args(["--package=muslin", "--package=muslin-golden"]);
+    // With the feature a cloth still runs on one thread unless a test asks for more.
+    cargo.arg("--features=muslin/parallel,muslin-golden/parallel");
+    cargo
 }
 
 /// Installs the standard library of every platform.

@@ -6,8 +6,6 @@ use crate::{files, shell};
 
 /// The profile of the program: optimised as a user's own release build is.
 const PROFILE: &str = "release-test";
-/// Plays a few runs and fails where one is farther off than today.
-const TEST: &str = "--test";
 /// Leaves out what differs between machines.
 const MANUAL: &str = "--manual";
 /// Writes the results into the manual.
@@ -27,11 +25,6 @@ pub fn run(arguments: &[String]) -> Result {
         ))),
         words => shell::run(&mut program(words)),
     }
-}
-
-/// A part of step `verify`: plays the runs that are within their tolerances.
-pub fn test() -> Result {
-    shell::run(&mut program(&[TEST]))
 }
 
 fn program(arguments: &[&str]) -> std::process::Command {
