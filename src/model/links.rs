@@ -12,7 +12,7 @@
 //! Invariant: `spec` alone determines `a`, `b` and `active` on a given mesh.
 
 use crate::math::column::Column;
-use crate::math::max;
+use crate::math::min;
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::link_ends::LinkEnds;
 use crate::model::maps::{Map, Maps};
@@ -173,14 +173,12 @@ pub(crate) struct LinkBatch {
     pub count: usize,
 }
 
-/// Largest compliance of a link that a map softens [m/N]: it does not resist, and its products stay
-/// finite.
-const MAX_PAINTED_COMPLIANCE: f32 = 1.0e12;
+/// Largest compliance of a link [m/N]: it does not resist, and its products stay finite.
+const MAX_COMPLIANCE: f32 = 1.0e12;
 
 /// The compliance [m/N] of a link whose stiffness is multiplied by `scale`.
 fn painted_compliance(compliance: f32, scale: f32) -> f32 {
-    let painted = compliance / scale;
-    if painted > MAX_PAINTED_COMPLIANCE { max(compliance, MAX_PAINTED_COMPLIANCE) } else { painted }
+    min(compliance / scale, MAX_COMPLIANCE)
 }
 
 /// Inverse spring constant [m/N]: 1 / (stiffness of the material · `stiffness_scale`), or 0 for a
@@ -196,5 +194,5 @@ fn compliance(spec: &LinkSpec, material: &Material) -> f32 {
         (LinkKind::Bend, _) => material.bend_stiffness,
     };
     let spring = stiffness * spec.stiffness_scale;
-    if spring > 0.0 { 1.0 / spring } else { 0.0 }
+    if spring > 0.0 { min(1.0 / spring, MAX_COMPLIANCE) } else { 0.0 }
 }

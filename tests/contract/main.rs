@@ -8,6 +8,7 @@ mod anchors;
 mod architecture;
 mod crowds;
 mod examples;
+mod extreme_fields;
 mod extreme_input;
 mod fuzz_regressions;
 mod maps;

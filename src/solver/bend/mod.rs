@@ -34,6 +34,7 @@ pub(crate) mod spectral_bound;
 pub(crate) mod stiffness_matrix;
 pub(crate) mod twist;
 
+use crate::math::min;
 use crate::model::bend_scale::BendScale;
 use crate::model::folds::Folds;
 use crate::model::links::LinkKind;
@@ -49,6 +50,9 @@ use glam::Vec3;
 
 /// Largest bending rigidity that painted scales give [N m], as of the material.
 const MAX_RIGIDITY: f32 = 1.0;
+
+/// Largest damping of bending, as a multiple of the length of a substep: products with it stay finite.
+const MAX_LAG: f32 = 1.0e10;
 
 /// Whether this stage may change the angular momentum of a free piece.
 ///
@@ -93,7 +97,7 @@ pub(crate) fn solve_in_sweep(world: &mut World, order: SweepOrder, iteration: u3
 fn solve_elements(world: &mut World, order: SweepOrder) {
     let scheme = world.scheme();
     // Damping acts on the change of curvature since the start of the substep.
-    let lag = world.material.bend_damping / scheme.h;
+    let lag = min(world.material.bend_damping / scheme.h, MAX_LAG);
     let stiffness =
         world.material.bend_stiffness * scheme.velocity_step * scheme.velocity_step * (1.0 + lag);
     let step = HingeStep { stiffness, start_share: lag / (1.0 + lag) };

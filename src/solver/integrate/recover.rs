@@ -45,6 +45,15 @@ pub(crate) fn restore_invalid(world: &mut World) {
     }
 }
 
+/// Returns whether all positions are valid numbers.
+pub(crate) fn are_positions_valid(world: &World) -> bool {
+    let mut all_valid = true;
+    for column in world.particles.x.slices() {
+        check_column(world.level, column, &mut all_valid);
+    }
+    all_valid
+}
+
 fn is_all_valid(world: &World) -> bool {
     let (level, p) = (world.level, &world.particles);
     let is_one_invalid = AtomicBool::new(false);

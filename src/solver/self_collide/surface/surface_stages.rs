@@ -19,7 +19,7 @@ use crate::math::wide4::xyz;
 use crate::math::{max, min};
 use crate::model::maps::Map;
 use crate::solver::collide;
-use crate::solver::integrate::momentum;
+use crate::solver::integrate::{momentum, recover};
 use crate::solver::particle_stage::interleaved;
 use crate::solver::self_collide::MAX_GAP;
 use crate::solver::self_collide::surface::contact_solver::{self, LayerFriction};
@@ -275,9 +275,7 @@ const SUPPORTED_SHARE: f32 = 0.02;
 
 /// Starts a tick, or the part of it after tears, at the current positions.
 pub(crate) fn begin_tick(world: &mut World) {
-    let Some(mut surface) = world.surface_collision.take() else {
-        return;
-    };
+    let Some(mut surface) = world.surface_collision.take() else { return };
     let gap = world.layer_gap();
     surface.tick_bounds.is_valid &= gap == surface.gap;
     surface.gap = gap;
@@ -297,9 +295,7 @@ pub(crate) fn begin_tick(world: &mut World) {
 
 /// Detects the contacts of a substep, and whether the surface intersects itself.
 pub(crate) fn detect_contacts(world: &mut World) {
-    let Some(mut surface) = world.surface_collision.take() else {
-        return;
-    };
+    let Some(mut surface) = world.surface_collision.take() else { return };
     collide::second_response::store_heights(world);
     interleaved::gather(&mut surface.motion.now, &world.particles.x, &world.particles.w);
     surface.planes.reset(world.particles.len());
@@ -326,9 +322,7 @@ pub(crate) fn solve_contacts(world: &mut World) {
         coefficient: world.material.friction,
         scales: world.maps.get(Map::Friction),
     };
-    let Some(mut surface) = world.surface_collision.take() else {
-        return;
-    };
+    let Some(mut surface) = world.surface_collision.take() else { return };
     let SurfaceCollision {
         contacts, active, warm_start_index, motion, vectors, intersections, ..
     } = &mut *surface;
@@ -379,11 +373,13 @@ fn gather_positions(world: &mut World) {
 }
 
 /// Runs the non-crossing pass of substep `substep`, after all other stages moved particles. What it
-/// moves ends outside all colliders.
+/// moves ends outside all colliders. Not with invalid positions, which the end of the tick restores:
+/// nothing can separate them, and trying takes long.
 pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
-    let Some(mut surface) = world.surface_collision.take() else {
+    if world.surface_collision.is_none() || !recover::are_positions_valid(world) {
         return;
-    };
+    }
+    let Some(mut surface) = world.surface_collision.take() else { return };
     let mut pushed = core::mem::take(&mut world.scratch.contacts.projected);
     pushed.clear();
     if !surface.active.is_empty() {
@@ -474,9 +470,7 @@ pub(crate) fn enforce_non_crossing_at_tick_end(world: &mut World) {
 /// Separates those of `vertices` that have the same position as another copy after a split.
 /// Momentum is conserved; nearby surfaces are pushed aside.
 pub(crate) fn separate_splits(world: &mut World, vertices: impl Iterator<Item = u32>) {
-    let Some(mut surface) = world.surface_collision.take() else {
-        return;
-    };
+    let Some(mut surface) = world.surface_collision.take() else { return };
     let split = &mut surface.split_separation;
     split.compute(&world.mesh, &world.particles, world.mean_edge, vertices);
     let copies = core::mem::take(&mut split.copies);
