@@ -8,7 +8,7 @@ use muslin::{Cloth, GridDesc, PinMode, Wind};
 const REST: f32 = 1.0e-3;
 
 /// Number of random sequences of throws.
-const SEEDS: u32 = 6;
+const SEEDS: u32 = 4;
 
 /// Runs two seconds and returns the RMS speed over them, weighted by mass [m/s].
 fn rms_speed_over_two_seconds(cloth: &mut Cloth) -> f32 {

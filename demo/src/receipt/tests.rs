@@ -20,6 +20,20 @@ fn played(gesture: ReceiptGesture, sheet: Sheet) -> ReceiptApp {
     played_for(gesture, sheet, gesture.ticks())
 }
 
+/// Plays a gesture with a sheet of paper, which must not cross itself.
+fn played_without_crossing(name: &str, gesture: ReceiptGesture) -> ReceiptApp {
+    let mut app = receipt_app(Sheet::Paper);
+    app.play(60).unwrap();
+    let mut play = ReceiptGesturePlayer::new(gesture);
+    for tick in 1..=gesture.ticks() {
+        play.step(&mut app).unwrap();
+        if tick % 30 == 0 {
+            assert_eq!(crossing_count(app.cloth()), 0, "{name}, at tick {tick}");
+        }
+    }
+    app
+}
+
 fn played_for(gesture: ReceiptGesture, sheet: Sheet, ticks: u32) -> ReceiptApp {
     let mut app = receipt_app(sheet);
     app.play(60).unwrap();
@@ -200,14 +214,9 @@ fn slow_ticks_run_in_slow_motion_and_drop_the_backlog() {
 #[test]
 fn no_gesture_moves_paper_through_itself() {
     for (name, gesture) in ReceiptGesture::ALL {
-        let mut app = receipt_app(Sheet::Paper);
-        app.play(60).unwrap();
-        let mut play = ReceiptGesturePlayer::new(gesture);
-        for tick in 1..=gesture.ticks() {
-            play.step(&mut app).unwrap();
-            if tick % 30 == 0 {
-                assert_eq!(crossing_count(app.cloth()), 0, "{name}, at tick {tick}");
-            }
+        // Crumpled paper has a test of its own, which also counts crossings.
+        if gesture != ReceiptGesture::Crumple {
+            played_without_crossing(name, gesture);
         }
     }
 }
@@ -299,8 +308,8 @@ fn a_tossed_receipt_lands_and_comes_to_rest_on_the_floor() {
 }
 
 #[test]
-fn crumpled_paper_keeps_the_shape_of_a_ball() {
-    let mut app = played(ReceiptGesture::Crumple, Sheet::Paper);
+fn crumpled_paper_keeps_the_shape_of_a_ball_and_does_not_cross_itself() {
+    let mut app = played_without_crossing("crumple", ReceiptGesture::Crumple);
     app.play(120).unwrap();
     let unit = Sheet::Paper.unit();
     let x = app.cloth().positions();
