@@ -68,7 +68,7 @@ fn assert_same_shape(row: &str, desc: &GridDesc, reference: &[Vec3], most: f32) 
 fn the_settled_shape_does_not_depend_on_resolution_tick_or_sweeps() {
     for pin_mode in [PinMode::TopEdge, PinMode::TopCorners] {
         let reference = sample_positions(&settled_cloth(&sheet(40, pin_mode)), 40);
-        for side in SIDES {
+        for side in SIDES.into_iter().filter(|side| *side != 40) {
             assert_same_shape(
                 &format!("I1 {side} nodes"),
                 &sheet(side, pin_mode),
@@ -76,7 +76,7 @@ fn the_settled_shape_does_not_depend_on_resolution_tick_or_sweeps() {
                 0.01,
             );
         }
-        for rate in RATES {
+        for rate in RATES.into_iter().filter(|rate| *rate != 60) {
             let mut desc = sheet(40, pin_mode);
             desc.settings.tick = 1.0 / rate as f32;
             assert_same_shape(&format!("I2 {rate} Hz"), &desc, &reference, 0.01);

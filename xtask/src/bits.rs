@@ -32,9 +32,9 @@ const LIMIT: &str = "MUSLIN_SIMD_LIMIT";
 /// The scene that qemu plays where a limit takes its place.
 const EMULATED_SCENE: &str = "receipt";
 
-/// The profile of the tests and of emulated platforms: optimised as a user's own release build is,
-/// without link-time optimisation. Shipped forms are built in profile `release`: the native
-/// program and both wasm modules.
+/// The profile of the tests and of all platforms: optimised as a user's own release build is,
+/// without link-time optimisation. The C library and the modules of the npm package are shipped
+/// with it; their tests compare the hashes of a script.
 pub const TEST_PROFILE: &str = "release-test";
 
 /// What comparing needs.
@@ -46,7 +46,6 @@ struct Platform {
     name: &'static str,
     /// The target and the compiler's flags; none for those of this machine.
     target: Option<(&'static str, &'static str)>,
-    profile: &'static str,
     runner: Runner,
     /// The instructions that the program must detect; none if any will do.
     instructions: Option<&'static str>,
@@ -62,45 +61,34 @@ enum Runner {
 /// All platforms. Where one differs from the first, both are compared tick by tick. Slow ones come
 /// early, since one runs while the next is built.
 const PLATFORMS: &[Platform] = &[
-    Platform {
-        name: "native",
-        target: None,
-        profile: "release",
-        runner: Runner::Native,
-        instructions: None,
-    },
+    Platform { name: "native", target: None, runner: Runner::Native, instructions: None },
     Platform {
         name: "neon",
         target: Some((AARCH64, LINK)),
-        profile: TEST_PROFILE,
         runner: Runner::Qemu("qemu-aarch64", &[]),
         instructions: Some("neon"),
     },
     Platform {
         name: "sse2",
         target: Some((X86_64, LINK_LIMITED)),
-        profile: TEST_PROFILE,
         runner: Runner::Qemu("qemu-x86_64", &["-cpu", "Nehalem"]),
         instructions: Some("sse2"),
     },
     Platform {
         name: "avx2",
         target: Some((X86_64, LINK_LIMITED)),
-        profile: TEST_PROFILE,
         runner: Runner::Qemu("qemu-x86_64", &["-cpu", "Nehalem,+xsave,+avx,+avx2"]),
         instructions: Some("avx2"),
     },
     Platform {
         name: "wasm",
         target: Some((wasm::TARGET, wasm::PLAIN)),
-        profile: "release",
         runner: Runner::Node,
         instructions: Some("scalar"),
     },
     Platform {
         name: "simd128",
         target: Some((wasm::TARGET, wasm::FLAGS)),
-        profile: "release",
         runner: Runner::Node,
         instructions: Some("simd128"),
     },
@@ -232,21 +220,19 @@ impl Platform {
     /// Builds the program and returns a copy of it, since another platform may be built in the same
     /// folder.
     fn build(&self) -> Result<PathBuf> {
-        let build = ["build", "--profile", self.profile, "--bin", PACKAGE, "--package", PACKAGE];
-        let mut cargo = cargo_for(&build, self.target);
-        if self.target.is_none() {
-            // With the features that the demo gives to dependencies, step `shot` finds the library
-            // compiled.
-            cargo.args(["--package", "muslin-demo"]);
-        }
-        shell::run(&mut cargo)?;
+        let build = ["build", "--profile", TEST_PROFILE, "--bin", PACKAGE, "--package", PACKAGE];
+        shell::run(&mut match self.target {
+            Some(_) => cargo_for(&build, self.target),
+            // The test of the package needs the program, too, so the step has built it.
+            None => cargo_test(&["--no-run", "--test=golden"]),
+        })?;
         let suffix = match self.runner {
             Runner::Node => ".wasm",
             Runner::Native => std::env::consts::EXE_SUFFIX,
             Runner::Qemu(..) => "",
         };
         let dir = self.target.map_or(files::target(), |(target, _)| files::target().join(target));
-        let built = dir.join(self.profile).join(format!("{PACKAGE}{suffix}"));
+        let built = dir.join(TEST_PROFILE).join(format!("{PACKAGE}{suffix}"));
         let programs = files::target().join("golden");
         files::create_dir(&programs)?;
         let copy = programs.join(format!("{}{suffix}", self.name));
