@@ -173,7 +173,7 @@ pub(crate) struct LinkBatch {
     pub count: usize,
 }
 
-/// Largest compliance of a link [m/N]: it does not resist, and its products stay finite.
+/// Largest compliance of a link [m/N]. The link does not resist, and products stay finite.
 const MAX_COMPLIANCE: f32 = 1.0e12;
 
 /// The compliance [m/N] of a link whose stiffness is multiplied by `scale`.

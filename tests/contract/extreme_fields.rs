@@ -1,5 +1,5 @@
-//! Any number that a field of material, settings or wind accepts leaves the cloth finite, near its
-//! pins, and not much slower.
+//! Fields of material, settings and wind with extreme values: the cloth stays finite and near its
+//! pins, and ticks stay short.
 
 use std::time::Duration;
 
@@ -14,8 +14,8 @@ use muslin::{
 const VALUES: [f32; 9] =
     [1.0e-45, 1.0e-38, 1.0e-30, 1.0e-20, 1.0e-10, 1.0e10, 1.0e20, 1.0e30, f32::MAX];
 
-/// The longest time of a tick. Ordinary ones take a tenth of a millisecond here, and the slowest 70:
-/// gravity of 1e10 m/s² presses all layers together.
+/// The longest time of a tick. Ordinary ticks take 0.1 ms here. The slowest take 70 ms: gravity of
+/// 1e10 m/s² presses all layers together.
 const LONGEST_TICK: Duration = Duration::from_millis(500);
 
 type Field<T> = (&'static str, fn(&mut T) -> &mut f32);
@@ -93,42 +93,34 @@ fn restores(name: &str, change: impl FnOnce(&mut Cloth) -> Result<()>) -> bool {
     std::iter::from_fn(|| cloth.next_event()).any(|event| event.kind == EventKind::Recovered)
 }
 
+/// Sets each field to a value in a cloth of its own, and returns the fields by which particles had
+/// to be restored.
+fn restoring<T>(
+    fields: &[Field<T>],
+    value: f32,
+    read: impl Fn(&Cloth) -> T,
+    write: impl Fn(&mut Cloth, T) -> Result<()>,
+) -> Vec<(&'static str, f32)> {
+    let has_restored = |(name, field): &&Field<T>| {
+        restores(&format!("{name} = {value:e}"), |cloth| {
+            let mut all = read(cloth);
+            *field(&mut all) = value;
+            write(cloth, all)
+        })
+    };
+    fields.iter().filter(has_restored).map(|(name, _)| (*name, value)).collect()
+}
+
 #[test]
 fn no_accepted_number_makes_the_cloth_explode_or_ticks_slow() {
-    let mut restoring = Vec::new();
+    let mut found = Vec::new();
     for value in VALUES.into_iter().chain(VALUES.map(|value| -value)) {
-        let mut note = |name: &'static str, is_restored: bool| {
-            if is_restored {
-                restoring.push((name, value));
-            }
-        };
-        for (name, field) in MATERIAL {
-            let is_restored = restores(&format!("{name} = {value:e}"), |cloth| {
-                let mut material = cloth.material().clone();
-                *field(&mut material) = value;
-                cloth.set_material(material)
-            });
-            note(name, is_restored);
-        }
-        for (name, field) in SETTINGS {
-            let is_restored = restores(&format!("{name} = {value:e}"), |cloth| {
-                let mut settings = cloth.settings().clone();
-                *field(&mut settings) = value;
-                cloth.set_settings(settings)
-            });
-            note(name, is_restored);
-        }
-        for (name, field) in WIND {
-            let is_restored = restores(&format!("{name} = {value:e}"), |cloth| {
-                let mut wind = cloth.wind().clone();
-                *field(&mut wind) = value;
-                cloth.set_wind(wind)
-            });
-            note(name, is_restored);
-        }
+        found.extend(restoring(&MATERIAL, value, |c| c.material().clone(), Cloth::set_material));
+        found.extend(restoring(&SETTINGS, value, |c| c.settings().clone(), Cloth::set_settings));
+        found.extend(restoring(&WIND, value, |c| c.wind().clone(), Cloth::set_wind));
     }
     // Accelerations that no position can hold; a mass and a time of which the inverse is infinite.
-    for (name, value) in restoring {
+    for (name, value) in found {
         let is_beyond = match name {
             "gravity.x" | "gravity.y" => value.abs() >= 1.0e20,
             "velocity.z" => value.abs() >= 1.0e10,

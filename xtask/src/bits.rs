@@ -33,8 +33,8 @@ const LIMIT: &str = "MUSLIN_SIMD_LIMIT";
 const EMULATED_SCENE: &str = "receipt";
 
 /// The profile of the tests and of all platforms: optimised as a user's own release build is,
-/// without link-time optimisation. The C library and the modules of the npm package are shipped
-/// with it; their tests compare the hashes of a script.
+/// without link-time optimisation. The C library and the npm package are built with link-time
+/// optimisation; their own tests compare the hash of a script.
 pub const TEST_PROFILE: &str = "release-test";
 
 /// What comparing needs.
@@ -124,8 +124,8 @@ pub fn test() -> Result {
     compare()
 }
 
-/// Returns the command that runs tests of the library in an optimised build. Commands with more
-/// packages share that build, because `cargo` gives it the same features for all of them.
+/// Returns the command that runs tests in an optimised build. A caller may add packages: the library
+/// is not built again, because its features stay the same.
 pub fn cargo_test(tests: &[&str]) -> Command {
     let mut cargo = shell::cargo(&["test", "--profile", TEST_PROFILE]);
     cargo.args(tests).args(["--package=muslin", "--package=muslin-golden"]);

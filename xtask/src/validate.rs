@@ -2,10 +2,8 @@
 //! simulation gives.
 
 use crate::failure::{During, Failure, Result};
-use crate::{files, shell};
+use crate::{bits, files, shell};
 
-/// The profile of the program: optimised as a user's own release build is.
-const PROFILE: &str = "release-test";
 /// Leaves out what differs between machines.
 const MANUAL: &str = "--manual";
 /// Writes the results into the manual.
@@ -28,7 +26,8 @@ pub fn run(arguments: &[String]) -> Result {
 }
 
 fn program(arguments: &[&str]) -> std::process::Command {
-    let run = ["run", "--quiet", "--profile", PROFILE, "--package", "muslin-validate", "--"];
+    let run =
+        ["run", "--quiet", "--profile", bits::TEST_PROFILE, "--package", "muslin-validate", "--"];
     let mut cargo = shell::cargo(&run);
     cargo.args(arguments);
     cargo

@@ -158,8 +158,8 @@ impl Level {
 /// leveled! { fn name(arguments…) = body, wide, Avx2 }     at AVX-512, the copy for AVX2 is called
 /// ```
 ///
-/// The last form suits loops bound by square roots and divisions: a 512-bit instruction does as
-/// many of them per cycle as a 256-bit one.
+/// The last form is for loops that spend their time in square roots and divisions: such an
+/// instruction of 512 bits takes twice as long as one of 256 bits.
 ///
 /// The bodies must be `#[inline(always)]`, so that they are compiled inside the function that
 /// enables the instructions.

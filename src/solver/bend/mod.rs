@@ -51,7 +51,7 @@ use glam::Vec3;
 /// Largest bending rigidity that painted scales give [N m], as of the material.
 const MAX_RIGIDITY: f32 = 1.0;
 
-/// Largest damping of bending, as a multiple of the length of a substep: products with it stay finite.
+/// Largest time of bending damping, in substeps. Products with it stay finite.
 const MAX_LAG: f32 = 1.0e10;
 
 /// Whether this stage may change the angular momentum of a free piece.

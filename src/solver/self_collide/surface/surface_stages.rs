@@ -373,8 +373,8 @@ fn gather_positions(world: &mut World) {
 }
 
 /// Runs the non-crossing pass of substep `substep`, after all other stages moved particles. What it
-/// moves ends outside all colliders. Not with invalid positions, which the end of the tick restores:
-/// nothing can separate them, and trying takes long.
+/// moves ends outside all colliders. Does nothing if a position is invalid: nothing can separate such
+/// positions, and the end of the tick restores them.
 pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
     if world.surface_collision.is_none() || !recover::are_positions_valid(world) {
         return;
