@@ -25,7 +25,10 @@ export function context(canvas) {
   return gl?.getExtension("EXT_color_buffer_float") ? gl : null;
 }
 
-/** Draws frames while the page is visible, and calls `updateReadout` four times a second. */
+/**
+ * Draws frames while the page is visible, and calls `updateReadout` four times a second. The cursor
+ * is updated each frame: cloth also moves under a pointer that rests.
+ */
 export function loop(canvas, demo, updateReadout) {
   const gl = canvas.getContext("webgl2");
   let last = 0;
@@ -47,6 +50,7 @@ export function loop(canvas, demo, updateReadout) {
     }
     demo.resize(wide, high);
     demo.frame(seconds, width, height);
+    canvas.style.cursor = demo.cursor();
     if (now - lastReadout > 250) {
       lastReadout = now;
       updateReadout();
@@ -89,25 +93,15 @@ export function listenToPointers(canvas, demo, press) {
     const box = canvas.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   };
-  const cursor = () => {
-    canvas.style.cursor = demo.cursor();
-  };
   canvas.addEventListener("pointerdown", (event) => {
-    if (press(event, ...at(event))) {
-      canvas.setPointerCapture(event.pointerId);
-      cursor();
-    }
+    if (press(event, ...at(event))) canvas.setPointerCapture(event.pointerId);
   });
   canvas.addEventListener("pointermove", (event) => {
     // Browsers merge the moves since the last frame; the event has the latest position.
     demo.drag(event.pointerId, ...at(event));
-    cursor();
   });
   for (const name of ["pointerup", "pointercancel", "lostpointercapture"]) {
-    canvas.addEventListener(name, (event) => {
-      demo.lift(event.pointerId);
-      cursor();
-    });
+    canvas.addEventListener(name, (event) => demo.lift(event.pointerId));
   }
   canvas.addEventListener("pointerleave", () => demo.clearHover());
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());

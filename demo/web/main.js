@@ -171,10 +171,7 @@ function listenToWalk(demo) {
 
 function listenToKeys(demo, changed) {
   const walks = listenToWalk(demo);
-  const updateBlade = (event) => {
-    demo.holdBlade(event.shiftKey === true);
-    canvas.style.cursor = demo.cursor();
-  };
+  const updateBlade = (event) => demo.holdBlade(event.shiftKey === true);
   addEventListener("keyup", updateBlade);
   addEventListener("blur", updateBlade);
   addEventListener("keydown", (event) => {

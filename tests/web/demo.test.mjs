@@ -235,22 +235,41 @@ test("two fingers hold the cloth at once, and a cancelled touch releases it", as
   await context.close();
 });
 
+/** Rests the mouse on a particle until the cursor shows that the cloth can be grabbed there. */
+async function hover(page, i) {
+  // The sheet sways, and the camera eases towards its place.
+  const over = async () => {
+    await page.mouse.move(...(await particle(page, i)));
+    return cursor(page);
+  };
+  await waitUntil(page, over, (now) => now === "grab", "the cursor does not show a hand over the sheet");
+}
+
+const cursor = (page) => page.evaluate(() => document.getElementById("stage").style.cursor);
+const waitForCursor = (page, wanted) =>
+  waitUntil(page, () => cursor(page), (now) => now === wanted, `the cursor is not ${wanted}`);
+
 test("the cursor shows what can be grabbed, what is held, and that the blade is on", async () => {
   const { context, page, complaints } = await visitRunning();
-  const cursor = () => page.evaluate(() => document.getElementById("stage").style.cursor);
-  const over = async (at, wanted) => {
-    await page.mouse.move(...at);
-    await waitUntil(page, cursor, (now) => now === wanted, `the cursor is not ${wanted}`);
-  };
-  await over([690, 300], "default");
-  await over(await particle(page, MIDDLE), "grab");
+  await page.mouse.move(690, 300);
+  await waitForCursor(page, "default");
+  await hover(page, MIDDLE);
   await page.mouse.down();
-  await waitUntil(page, cursor, (now) => now === "grabbing", "the cursor is not grabbing");
+  await waitForCursor(page, "grabbing");
   await page.mouse.up();
   await page.keyboard.down("Shift");
-  await waitUntil(page, cursor, (now) => now === "crosshair", "the cursor does not show the blade");
+  await waitForCursor(page, "crosshair");
   await page.keyboard.up("Shift");
-  assert.notEqual(await cursor(), "crosshair");
+  await hover(page, MIDDLE);
+  assert.deepEqual(complaints, []);
+  await context.close();
+});
+
+test("the cursor changes when the cloth moves away from a mouse that rests", async () => {
+  const { context, page, complaints } = await visitRunning();
+  await hover(page, 2 * 40 + 2);
+  for (let i = 0; i < 8; i++) await page.keyboard.press("-");
+  await waitForCursor(page, "default");
   assert.deepEqual(complaints, []);
   await context.close();
 });
