@@ -195,7 +195,9 @@ fn edge_contact(
             is_beside: is_fast && edge_crossing(edge, start, own).is_none(),
         });
         let are_outside = start.iter().map(|x| edge.is_outside(*x));
-        if edge.sides == FeatureSides::TwoSided && !was_outside(own, gap, are_outside) {
+        if edge.sides == FeatureSides::TwoSided
+            && !was_outside(own, step.is_none(), gap, are_outside)
+        {
             return passed();
         }
         let start_height = corrected_start_height(start_height, gap, is_fast, own);
@@ -232,14 +234,17 @@ struct StartPlane {
 /// Returns whether cloth started on the outer side of a two-sided feature. Its height decides; just
 /// behind the feature, each corner must also have been in front of a face. Corners alone do not decide:
 /// those of a long triangle may lie behind both faces where the surface bends away, and in front of one
-/// where it bends back.
+/// where it bends back. They do for cloth that slides onto a rigid surface from beside it, whose plane
+/// may lie far behind the feature. A surface that deforms may have passed the corners instead.
 fn was_outside(
     own: Option<StartPlane>,
+    is_rigid: bool,
     gap: f32,
     mut are_outside: impl Iterator<Item = bool>,
 ) -> bool {
-    let height = own.map_or(0.0, |own| own.height);
-    height > 0.0 || height >= -SHALLOW * gap && are_outside.all(|is_outside| is_outside)
+    let (height, is_beside) = own.map_or((0.0, false), |own| (own.height, own.is_beside));
+    let is_near = is_rigid && is_beside || height >= -SHALLOW * gap;
+    height > 0.0 || is_near && are_outside.all(|is_outside| is_outside)
 }
 
 /// Returns the height at which a point of the cloth started, given that height along the normal of
@@ -368,7 +373,9 @@ fn vertex_contact(
             StartPlane { height: p.dot(own), is_beside }
         });
         let are_outside = start.iter().map(|x| features.is_outside_vertex(vertex, *x));
-        if vertex.sides == FeatureSides::TwoSided && !was_outside(own, gap, are_outside) {
+        if vertex.sides == FeatureSides::TwoSided
+            && !was_outside(own, step.is_none(), gap, are_outside)
+        {
             return passed();
         }
         let start_height = corrected_start_height(start_height, gap, is_fast, own);
