@@ -234,8 +234,9 @@ struct StartPlane {
 /// Returns whether cloth started on the outer side of a two-sided feature. Its height decides; just
 /// behind the feature, each corner must also have been in front of a face. Corners alone do not decide:
 /// those of a long triangle may lie behind both faces where the surface bends away, and in front of one
-/// where it bends back. They do for cloth that slides onto a rigid surface from beside it, whose plane
-/// may lie far behind the feature. A surface that deforms may have passed the corners instead.
+/// where it bends back. Cloth that was beside a feature of a rigid surface needs only its corners in
+/// front, because its plane may have been far behind the feature. On a surface that deforms that is not
+/// enough: the surface may have moved past the corners.
 fn was_outside(
     own: Option<StartPlane>,
     is_rigid: bool,
