@@ -1,6 +1,7 @@
 // Benchmarks in a page: Muslin and a hand-written loop. Stores the rows of the tables in
 // `window.result`. `?test` runs everything once in a small size, `?brief` only the receipt for a
-// second or two.
+// second or two, in
+// processor time if the browser's driver offers it as `window.threadTime`.
 
 import { compare } from "/peers/compare.js";
 import { measureReceipt } from "/peers/receipt.js";
@@ -16,7 +17,7 @@ const EFFORTS = {
 async function run() {
   const { search } = location;
   await init();
-  const receipts = measureReceipt({ Cloth }, EFFORTS[search]);
+  const receipts = await measureReceipt({ Cloth }, EFFORTS[search], window.threadTime);
   if (search === "?brief") return { receipts };
   const sides = [40];
   const rows = await compare({ Cloth }, { sides, isTest: search === "?test", log: (text) => console.log(text) });

@@ -27,7 +27,7 @@ const modules = { Cloth, RAPIER, Jolt: await initJolt() };
 const log = (text) => console.error(`  ${text}`);
 const rows = await compare(modules, { isTest, log });
 const effort = isTest ? { rounds: 1, slice: 0 } : { rounds: 15, slice: 0.25 };
-print(`node ${process.version}`, { rows, micros: timeReading(modules, isTest), receipts: measureReceipt(modules, effort) });
+print(`node ${process.version}`, { rows, micros: timeReading(modules, isTest), receipts: await measureReceipt(modules, effort) });
 
 const { MUSLIN_URL: url } = process.env;
 if (url) {

@@ -13,7 +13,7 @@ async function run() {
   const modules = { Cloth, RAPIER, Jolt: await initJolt() };
   const rows = await compare(modules, { isTest, log: (text) => console.log(text) });
   const effort = isTest ? { rounds: 1, slice: 0 } : { rounds: 15, slice: 0.25 };
-  return { rows, micros: timeReading(modules, isTest), receipts: measureReceipt(modules, effort) };
+  return { rows, micros: timeReading(modules, isTest), receipts: await measureReceipt(modules, effort) };
 }
 
 window.result = await run().catch((error) => ({ error: `${error.stack ?? error}` }));

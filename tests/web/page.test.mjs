@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { test } from "node:test";
 
-import { launch, open, url } from "./browser.mjs";
+import { launch, offerThreadTime, open, url } from "./browser.mjs";
 
 test("the package loads under a strict content security policy and the script ends with the golden hash", async () => {
   const browser = await launch();
@@ -32,14 +32,15 @@ test("the receipt scenes run in real time with particle collision", async () => 
   const browser = await launch();
   try {
     const { page, complaints } = await open(browser);
+    await offerThreadTime(page);
     await page.goto(new URL("page/index.html?brief", url).href);
     await page.waitForFunction(() => window.result, null, { timeout: 120_000 });
     const { error, receipts } = await page.evaluate(() => window.result);
     assert.equal(error, undefined);
     assert.equal(receipts.length, 5);
-    // The machine may be busy, so the shortest of several rounds counts.
+    // The machine may be busy, so processor time counts, in the shortest of several rounds.
     for (const { name, min } of receipts) {
-      assert.ok(min > 0.05 && min < 1000 / 120, `${name} takes ${min} ms per tick of 8.33 ms`);
+      assert.ok(min > 0.05 && min < 1000 / 120, `${name} takes ${min} ms of processor time per tick of 8.33 ms`);
     }
     assert.deepEqual(complaints, []);
   } finally {

@@ -28,6 +28,8 @@ pub struct Outcome {
     pub name: &'static str,
     /// Wall time from its start to its end.
     pub time: Duration,
+    /// Processor time of its processes, where the system tells it.
+    pub processor_time: Option<Duration>,
     /// Whether it passed.
     pub has_passed: bool,
 }
@@ -51,6 +53,7 @@ pub fn run(steps: &[&'static Step]) -> Result<Vec<Outcome>> {
     let mut left = steps.to_vec();
     let mut running: Vec<Running> = Vec::new();
     let mut outcomes: Vec<Outcome> = Vec::new();
+    let mut spent = ended_children_time();
     loop {
         let has_failed = outcomes.iter().any(|outcome| !outcome.has_passed);
         while !has_failed && running.len() < lanes {
@@ -74,11 +77,15 @@ pub fn run(steps: &[&'static Step]) -> Result<Vec<Outcome>> {
         let status = status.during(|| format!("waiting for step {name}"))?;
         if let Some(at) = running.iter().position(|one| one.step.name == name) {
             let one = running.remove(at);
+            let until_now = ended_children_time();
+            let processor_time =
+                until_now.zip(spent).map(|(now, before)| now.saturating_sub(before));
+            spent = until_now;
             if has_failed {
                 println!("-- {name}: stopped");
                 continue;
             }
-            outcomes.push(report(&one, status)?);
+            outcomes.push(report(&one, status, processor_time)?);
             if !status.success() {
                 running.iter_mut().for_each(|other| other.stdin = None);
             }
@@ -112,15 +119,24 @@ fn start(step: &Step, run: &str) -> Result<Child> {
     command.spawn().during(during)
 }
 
+/// The processor time of all processes that this one has waited for, and of those that they have.
+pub fn ended_children_time() -> Option<Duration> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The program's name, in parentheses, may contain spaces. Fields 16 and 17 are in units of 10 ms.
+    let fields: Vec<_> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks: u64 = fields.get(13..15)?.iter().filter_map(|field| field.parse::<u64>().ok()).sum();
+    Some(Duration::from_millis(10 * ticks))
+}
+
 /// Prints the output of a step that has ended.
-fn report(one: &Running, status: ExitStatus) -> Result<Outcome> {
+fn report(one: &Running, status: ExitStatus, processor_time: Option<Duration>) -> Result<Outcome> {
     let (step, time) = (one.step, one.start.elapsed());
     let log =
         std::fs::read(log_file(step)).during(|| format!("reading the log of {}", step.name))?;
     println!("\n== {}: {}\n{}", step.name, step.about, String::from_utf8_lossy(&log).trim_end());
     let verb = if status.success() { "passed" } else { "failed" };
     println!("== {} {verb} in {:.1} s\n", step.name, time.as_secs_f32());
-    Ok(Outcome { name: step.name, time, has_passed: status.success() })
+    Ok(Outcome { name: step.name, time, processor_time, has_passed: status.success() })
 }
 
 /// Runs one step in this process, which ends with all processes that it started as soon as its

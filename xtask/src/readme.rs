@@ -15,6 +15,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::demo::Build;
 use crate::failure::{During, Failure, Result};
 use crate::setup::{self, Need};
 use crate::{bench, c, c_tests, csharp, demo, files, first_frames, js, npm, python, shell};
@@ -239,7 +240,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["test" | "check"] | ["test", "--all"] => Action::Tests,
         ["test", steps @ ..] if steps.iter().all(|step| is_step(step)) => Action::Tests,
         // Step `shot` tests what it prints without a display.
-        ["demo"] => Action::Step("shot"),
+        ["demo"] | ["demo", "--dev-build"] => Action::Step("shot"),
         ["demo", "--web"] => Action::Step("web"),
         ["demo", "--shot", _file, options @ ..] if demo::is_test_picture(options) => {
             Action::Step("shot")
@@ -269,14 +270,24 @@ fn run_command(command: &str, is_step: IsStep) -> Result {
             println!("{command}: the tests are running");
             Ok(())
         }
-        Action::Shot(options) => demo::shoot(&scratch().join("shot.png"), &options),
+        Action::Shot(options) => demo::shoot(&scratch().join("shot.png"), &options, Build::Dev),
         Action::Chore(words) => shell::run(&mut shell::xtask(&words)?),
         Action::Bench(tables) => {
             bench::run(&tables.into_iter().chain(["--test"]).map(String::from).collect::<Vec<_>>())
         }
-        Action::Shell => shell::run(shell::command("sh").args(["-ec", command])),
+        Action::Shell => run_in_shell(command),
         Action::Unknown => Err(Failure::new("no test runs this command")),
     }
+}
+
+/// Runs a command of the shell. What it builds for release is built without optimisation: other steps
+/// test what is shipped, and here only the command is tested.
+fn run_in_shell(command: &str) -> Result {
+    let mut shell = shell::command("sh");
+    shell.args(["-ec", command]).env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "0");
+    shell.env("CARGO_PROFILE_RELEASE_LTO", "off").env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "16");
+    shell::without_incremental_builds(&mut shell);
+    shell::run(&mut shell)
 }
 
 #[cfg(test)]

@@ -13,15 +13,19 @@ pub fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
     command
 }
 
-/// The cargo that runs this program. In CI, where nothing is built twice, incremental builds are
-/// off: they take longer.
+/// The cargo that runs this program, without incremental builds in CI.
 pub fn cargo(args: &[&str]) -> Command {
     let mut cargo = command(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(args);
-    if std::env::var_os("CI").is_some() && std::env::var_os("CARGO_INCREMENTAL").is_none() {
-        cargo.env("CARGO_INCREMENTAL", "0");
-    }
+    without_incremental_builds(cargo.args(args));
     cargo
+}
+
+/// In CI, where nothing is built twice, incremental builds are off: they take longer. All of cargo's
+/// commands there must agree on it, or each kind builds everything anew.
+pub fn without_incremental_builds(command: &mut Command) {
+    if std::env::var_os("CI").is_some() && std::env::var_os("CARGO_INCREMENTAL").is_none() {
+        command.env("CARGO_INCREMENTAL", "0");
+    }
 }
 
 /// This program with other arguments.

@@ -51,7 +51,8 @@ pub fn check(words: &[String]) -> Result {
         let start = Instant::now();
         println!("\n== {name}");
         run().during(|| format!("check {name}"))?;
-        outcomes.push(Outcome { name, time: start.elapsed(), has_passed: true });
+        let time = start.elapsed();
+        outcomes.push(Outcome { name, time, processor_time: None, has_passed: true });
     }
     println!("{}", summary(&outcomes, start.elapsed()));
     Ok(())
@@ -83,7 +84,8 @@ fn run_alone(step: &Step) -> Result<Outcome> {
     println!("\n== {}: {}", step.name, step.about);
     let start = Instant::now();
     (step.run)().during(|| format!("step {}", step.name))?;
-    Ok(Outcome { name: step.name, time: start.elapsed(), has_passed: true })
+    let (time, processor_time) = (start.elapsed(), lanes::ended_children_time());
+    Ok(Outcome { name: step.name, time, processor_time, has_passed: true })
 }
 
 /// The steps that the words ask for, in the order of [`STEPS`].
@@ -112,9 +114,13 @@ fn needs(steps: &[&Step]) -> Vec<&'static Need> {
     needs
 }
 
-/// Two lines: the wall time of the whole and of each part, and how many passed and failed.
+/// Two lines: the wall time of the whole and of each part, with the processor time in parentheses,
+/// and how many passed and failed.
 fn summary(outcomes: &[Outcome], whole: Duration) -> String {
-    let part = |one: &Outcome| format!("{} {:.0} s", one.name, one.time.as_secs_f32());
+    let part = |one: &Outcome| {
+        let processor = one.processor_time.map(|time| format!(" ({:.0})", time.as_secs_f32()));
+        format!("{} {:.0} s{}", one.name, one.time.as_secs_f32(), processor.unwrap_or_default())
+    };
     let parts: Vec<_> = outcomes.iter().map(part).collect();
     let passed = outcomes.iter().filter(|one| one.has_passed).count();
     let failed = outcomes.len() - passed;
@@ -152,14 +158,15 @@ mod tests {
 
     #[test]
     fn the_summary_names_each_part_and_counts_failures() {
-        let outcome = |name, seconds, has_passed| Outcome {
+        let outcome = |name, seconds, processor_time, has_passed| Outcome {
             name,
             time: Duration::from_secs(seconds),
+            processor_time,
             has_passed,
         };
-        let text =
-            summary(&[outcome("a", 61, true), outcome("b", 5, false)], Duration::from_secs(63));
-        assert_eq!(text, "\n63 s in all: a 61 s, b 5 s\n1 passed, 1 failed");
+        let a = outcome("a", 61, Some(Duration::from_secs(99)), true);
+        let text = summary(&[a, outcome("b", 5, None, false)], Duration::from_secs(63));
+        assert_eq!(text, "\n63 s in all: a 61 s (99), b 5 s\n1 passed, 1 failed");
     }
 
     #[test]
