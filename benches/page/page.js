@@ -1,7 +1,7 @@
 // Benchmarks in a page: Muslin and a hand-written loop. Stores the rows of the tables in
 // `window.result`. `?test` runs everything once in a small size, `?brief` only the receipt for a
-// second or two, in
-// processor time if the browser's driver offers it as `window.threadTime`.
+// second or two. A test that opens the page may offer `window.threadTime`: then the receipt is timed by
+// processor time.
 
 import { compare } from "/peers/compare.js";
 import { measureReceipt } from "/peers/receipt.js";

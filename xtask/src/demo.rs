@@ -10,9 +10,9 @@ use crate::{files, picture, setup, share, shell, web};
 /// How the demo is built.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Build {
-    /// As it is shipped: with all optimisation.
+    /// As it is shipped: with link-time optimisation.
     Release,
-    /// As the tests of the demo are built: in a sixth of the time, to run two thirds as fast.
+    /// As the tests are built: it takes less time to build, and runs two thirds as fast.
     Dev,
 }
 

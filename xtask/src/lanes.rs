@@ -28,7 +28,8 @@ pub struct Outcome {
     pub name: &'static str,
     /// Wall time from its start to its end.
     pub time: Duration,
-    /// Processor time of its processes, where the system tells it.
+    /// Processor time of its processes, where the system tells it. Of two steps that end at the same
+    /// moment the first may get the time of both.
     pub processor_time: Option<Duration>,
     /// Whether it passed.
     pub has_passed: bool,
@@ -119,7 +120,8 @@ fn start(step: &Step, run: &str) -> Result<Child> {
     command.spawn().during(during)
 }
 
-/// The processor time of all processes that this one has waited for, and of those that they have.
+/// Returns the processor time of all processes that this one has waited for, and of those that they have
+/// waited for; `None` where the system does not tell it.
 pub fn ended_children_time() -> Option<Duration> {
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
     // The program's name, in parentheses, may contain spaces. Fields 16 and 17 are in units of 10 ms.

@@ -65,7 +65,7 @@ use failure::{Failure, Result};
 const USAGE: &str = "\
 cargo xtask demo [OPTION…]          build and run the demo; --help lists its options
 cargo xtask demo --shot FILE.png    draw a picture of it without a screen
-cargo xtask demo --dev-build        with --shot or without: quick to build, slower to run
+cargo xtask demo --dev-build        build it as the tests do: quicker to build, slower to run
 cargo xtask demo --web              build the demo as a page and serve it
   --port N                          on this port (8080, or a free one)
   --no-open                         without opening a browser

@@ -20,8 +20,8 @@ pub fn cargo(args: &[&str]) -> Command {
     cargo
 }
 
-/// In CI, where nothing is built twice, incremental builds are off: they take longer. All of cargo's
-/// commands there must agree on it, or each kind builds everything anew.
+/// Turns incremental builds off in CI, where nothing is built twice: they take longer. All cargo
+/// commands of a run must agree on this, or cargo builds every crate once with it and once without.
 pub fn without_incremental_builds(command: &mut Command) {
     if std::env::var_os("CI").is_some() && std::env::var_os("CARGO_INCREMENTAL").is_none() {
         command.env("CARGO_INCREMENTAL", "0");

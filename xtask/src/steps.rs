@@ -221,7 +221,7 @@ pub const STEPS: &[Step] = &[
     },
     Step {
         name: "demo",
-        about: "the demo as it is shipped: its build with all optimisation, and a picture",
+        about: "the demo as it is shipped: its build with link-time optimisation, and a picture",
         needs: &[&setup::EGL],
         writes: &[],
         reads: &[],
