@@ -46,11 +46,11 @@ fn vibration(cloth: &Cloth) -> f32 {
     (0..cloth.particle_count()).map(speed2).sum::<f32>() / cloth.particle_count() as f32
 }
 
-/// Moves a ball upwards through the place of a sheet at `speed` [m/s] and returns the largest
-/// number of substeps.
-fn most_substeps_at(speed: f32, substeps: u32) -> u32 {
+/// Moves a ball upwards through the place of a sheet at `speed` [m/s] and returns the number of
+/// substeps of each tick.
+fn substeps_at(speed: f32, substeps: u32, max_stretch: f32) -> Vec<u32> {
     let mut cloth = sheet_in_vacuum();
-    let settings = muslin::Settings { substeps, ..cloth.settings().clone() };
+    let settings = muslin::Settings { substeps, max_stretch, ..cloth.settings().clone() };
     cloth.set_settings(settings).unwrap();
     let mut at = center(&cloth) - Vec3::Y * 0.5;
     let body = cloth.add_collider(&ball(0.2, at)).unwrap();
@@ -61,7 +61,12 @@ fn most_substeps_at(speed: f32, substeps: u32) -> u32 {
             cloth.step(1);
             cloth.stats().substeps
         })
-        .fold(0, u32::max)
+        .collect()
+}
+
+/// Returns the largest number of substeps.
+fn most_substeps_at(speed: f32, substeps: u32) -> u32 {
+    substeps_at(speed, substeps, 0.0).into_iter().fold(0, u32::max)
 }
 
 #[test]
@@ -70,6 +75,16 @@ fn a_fast_body_adds_substeps_and_stats_tell_their_number() {
     assert_eq!(counts[..2], [4, 4], "slow bodies");
     assert!((8..=12).contains(&counts[2]), "{} substeps at 15 m/s", counts[2]);
     assert!((16..=24).contains(&counts[3]), "{} substeps at 50 m/s", counts[3]);
+}
+
+#[test]
+fn a_bound_of_stretch_adds_substeps_from_a_fifth_of_the_speed_on() {
+    // The tick of the impact is the first one that adds any.
+    let counts = [2.0, 5.0, 10.0, 15.0, 50.0].map(|speed| {
+        let counts = substeps_at(speed, 4, 0.05);
+        counts.into_iter().find(|count| *count > 4).unwrap_or(4)
+    });
+    assert_eq!(counts, [4, 12, 20, 28, 32]);
 }
 
 #[test]

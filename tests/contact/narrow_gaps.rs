@@ -1,10 +1,12 @@
-//! Two bodies that leave the cloth less room than the distances that it keeps from both.
+//! Two bodies that leave the cloth less room than the distances that it keeps from both, or none on
+//! the line between them.
 //!
 //! The one that was solved last used to take all of its distance, and pushed the cloth into the other.
 
 use crate::common::shapes::{octahedron, signed_distance, sphere_mesh};
-use muslin::glam::Vec3;
+use muslin::glam::{Quat, Vec3};
 use muslin::{Cloth, ColliderDesc, GridDesc, SelfCollision, Shape};
+use std::f32::consts::FRAC_PI_2;
 
 /// The distance that the cloth keeps from each body [m].
 const THICKNESS: f32 = 0.01;
@@ -72,6 +74,62 @@ fn cloth_between_two_bodies_stays_outside_both_and_within_its_stretch() {
             for max_stretch in [0.0, 0.05] {
                 for speed in [0.2, 1.0, 3.0] {
                     squeeze(&body, self_collision, max_stretch, speed);
+                }
+            }
+        }
+    }
+}
+
+/// Closes two bodies on the hem of a hung sheet from both sides at `speed` [m/s] each, until they
+/// overlap by 10 mm, and parts them again.
+fn close(bodies: [&ColliderDesc; 2], self_collision: SelfCollision, bound: f32, speed: f32) {
+    const OVERLAP: f32 = 0.01;
+    const START: f32 = 0.1;
+    let shapes = bodies.map(|body| body.shape);
+    let case = format!("{shapes:?}, {self_collision:?}, bound {bound}, {speed} m/s");
+    let mut cloth = hung_sheet(self_collision, bound);
+    let at = |way: f32| {
+        // The bodies' middle is below the hem, so there is room above them.
+        [(bodies[0], -1.0), (bodies[1], 1.0)].map(|(body, side)| ColliderDesc {
+            position: Vec3::new(0.0, -0.495, side * (RADIUS + (START - way).max(-0.5 * OVERLAP))),
+            thickness: 2.0e-3,
+            ..body.clone()
+        })
+    };
+    let colliders = at(0.0).map(|body| cloth.add_collider(&body).unwrap());
+    let closing = ((START + 0.5 * OVERLAP) / speed * 120.0).ceil() as u32;
+    for tick in 1..=2 * closing + 30 {
+        let way = tick.min((2 * closing + 30).saturating_sub(tick)) as f32 * speed / 120.0;
+        let now = at(way);
+        for (collider, desc) in colliders.iter().zip(&now) {
+            cloth.move_collider(*collider, desc.position, desc.rotation).unwrap();
+        }
+        cloth.step(1);
+        for (desc, x) in now.iter().flat_map(|d| cloth.positions().iter().map(move |x| (d, *x))) {
+            let depth = -signed_distance(desc, x);
+            assert!(depth < TOLERANCE, "{case}, tick {tick}: {x} is {depth} m inside");
+        }
+        assert_eq!(cloth.stats().free_inside, 0, "{case}, tick {tick}");
+    }
+}
+
+#[test]
+fn cloth_on_which_two_round_bodies_close_comes_out_along_their_crease() {
+    let solid = |shape, rotation| ColliderDesc {
+        shape,
+        radius: RADIUS,
+        top_radius: RADIUS,
+        half_height: 0.3,
+        rotation,
+        ..ColliderDesc::default()
+    };
+    let ball = solid(Shape::Sphere, Quat::IDENTITY);
+    let capsule = solid(Shape::Capsule, Quat::from_rotation_z(FRAC_PI_2));
+    for pair in [[&ball, &ball], [&ball, &capsule], [&capsule, &capsule]] {
+        for self_collision in [SelfCollision::None, SelfCollision::Surface] {
+            for bound in [0.0, 0.05] {
+                for speed in [0.05, 0.5, 3.0] {
+                    close(pair, self_collision, bound, speed);
                 }
             }
         }

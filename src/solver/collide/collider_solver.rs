@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! each collider    particles ─▶ long triangles ─▶ rounds of triangles or of edges and vertices
-//! then             particles between two colliders (`squeezed`)
+//! then             particles between two colliders, and in the creases where solids overlap
+//!                  (`squeezed`)
 //! ```
 //! Reads colliders, the blocks near them, positions and predicted positions; writes positions and
 //! the list of contacts.
@@ -39,6 +40,9 @@ const MAX_SEARCHES: u32 = 4;
 /// The largest number of rounds that roll triangles back.
 const MAX_ROLLBACK_ROUNDS: u32 = 100;
 
+/// The largest number of times that particles in a crease are pushed out of each collider.
+const MAX_CREASE_ROUNDS: u32 = 40;
+
 /// A penetration deeper than this, in mean edge lengths, is not the result of motion. The first
 /// value is for round shapes, the second for shapes with flat faces, whose vertices may stick
 /// through the cloth.
@@ -60,7 +64,13 @@ pub(super) fn solve(
     let mut run = |pass| run_pass(world, frames, part, projection, pass);
     run(Pass::First);
     run(Pass::Again);
-    run(Pass::Distances);
+    let mut are_inside = run(Pass::Distances);
+    for _ in 0..MAX_CREASE_ROUNDS {
+        if !are_inside {
+            break;
+        }
+        are_inside = run(Pass::Creases);
+    }
 }
 
 /// What is done with each collider.
@@ -73,27 +83,31 @@ enum Pass {
     /// Measures the distances of particles that two colliders push towards each other; then these are
     /// separated.
     Distances,
+    /// Pushes out particles that two colliders leave no room on the line between them.
+    Creases,
 }
 
 /// Runs one pass over all colliders. Without particles between two colliders only the first does
-/// anything.
+/// anything. Returns whether particles may be left that two colliders leave no room.
 fn run_pass(
     world: &mut World,
     frames: &dyn Fn(&ColliderBody) -> [Transform; 2],
     part: [f32; 2],
     projection: Option<Projection>,
     pass: Pass,
-) {
+) -> bool {
     let contacts = &mut world.scratch.contacts;
     let count = contacts.collider_contacts.len();
     let is_needed = match pass {
         Pass::First => true,
         Pass::Again => count > 0 && contacts.nearby.are_several_near(),
         Pass::Distances => squeezed::select(contacts),
+        Pass::Creases => true,
     };
     if !is_needed {
-        return;
+        return false;
     }
+    let mut are_inside = false;
     let scheme = world.scheme();
     let is_projection = projection.is_some();
     let (p, scratch) = (&mut world.particles, &mut world.scratch);
@@ -140,6 +154,11 @@ fn run_pass(
             contacts: &mut contacts.collider_contacts,
             contact_slots: &mut contacts.contact_slots,
         };
+        if pass == Pass::Creases {
+            let candidates = &neighbours.candidates;
+            are_inside |= squeezed::push_along_creases(shape, &mut particles, candidates, count);
+            continue;
+        }
         if pass != Pass::First {
             let (candidates, is_again) = (&neighbours.candidates, pass == Pass::Again);
             squeezed::visit(shape, &mut particles, candidates, count, is_again);
@@ -263,8 +282,9 @@ fn run_pass(
         }
     }
     if pass == Pass::Distances {
-        squeezed::separate(&mut p.x, contacts);
+        are_inside = squeezed::separate(&mut p.x, contacts);
     }
+    are_inside
 }
 
 /// Calls `push`, which pushes triangles out and returns the largest depth [m], until none is too

@@ -92,6 +92,11 @@ impl<'a> ContactScales<'a> {
         least(self.thickness, corners) * self.room(corners)
     }
 
+    /// Returns whether a particle is between colliders that leave it no room.
+    pub fn has_no_room(&self, i: usize) -> bool {
+        self.room(&[i]) == 0.0
+    }
+
     /// The share of all distances that there is room for.
     #[inline(always)]
     fn room(&self, corners: &[usize]) -> f32 {

@@ -28,6 +28,10 @@ use glam::Vec3;
 /// Motion relative to a collider that one substep resolves, in mean edge lengths at rest.
 const STEP: f32 = 1.0;
 
+/// The same for cloth with a bound of stretch: the links carry an impact to the rest of the cloth in
+/// steps that the bound can still take back.
+const BOUNDED_STEP: f32 = 0.2;
+
 /// Distance from a collider that counts as near, in mean edge lengths at rest.
 const MARGIN: f32 = 1.0;
 
@@ -36,7 +40,7 @@ const MARGIN: f32 = 1.0;
 pub(crate) fn needed_substeps(world: &mut World, available: f32) -> f32 {
     let mut bodies = core::mem::take(&mut world.scratch.contacts.body_motions);
     bodies.clear();
-    let (step, margin) = (STEP * world.mean_edge, MARGIN * world.mean_edge);
+    let (step, margin) = (step(world), MARGIN * world.mean_edge);
     let [_, largest] = world.maps.range(Map::Thickness);
     // Displacement of a particle in the tick up to which no body needs more substeps [m].
     let mut harmless = f32::INFINITY;
@@ -60,11 +64,17 @@ pub(crate) fn needed_substeps(world: &mut World, available: f32) -> f32 {
     needed
 }
 
+/// Returns the motion relative to a collider that one substep resolves [m].
+fn step(world: &World) -> f32 {
+    let is_bounded = world.settings.max_stretch > 0.0;
+    world.mean_edge * if is_bounded { BOUNDED_STEP } else { STEP }
+}
+
 /// Returns whether a particle met a collider in this substep at a speed that needs more substeps
 /// than the settings ask for.
 pub(crate) fn has_fast_impact(world: &World) -> bool {
     let settings = &world.settings;
-    let speed = settings.substeps as f32 * STEP * world.mean_edge / settings.tick;
+    let speed = settings.substeps as f32 * step(world) / settings.tick;
     world.scratch.contacts.collider_contacts.iter().any(|contact| {
         let relative = contact.approach_velocity - contact.surface_velocity;
         relative.length_squared() > speed * speed
