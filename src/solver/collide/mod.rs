@@ -151,6 +151,8 @@ pub(crate) fn project_out_in_substep(
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     contacts.collider_contacts.clear();
+    // Contacts between layers stretch triangles far.
+    contacts.long.invalidate();
     broad_phase::refresh(world, substep_part(substep, substeps));
     collider_solver::solve(
         world,

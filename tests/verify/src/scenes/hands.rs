@@ -10,7 +10,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 
 pub fn scenes() -> Vec<Scene> {
     vec![
-        Scene::new("fist-of-spheres", 180, fist_of_spheres),
+        Scene::new("fist-of-spheres", 180, fist_of_spheres).short(100),
         Scene::new("fist-of-fingers", 180, fist_of_fingers),
         Scene::new("fist-of-grabs", 180, || fist_of_grabs(0.0)).short(120),
         Scene::new("fist-of-grabs-bound", 180, || fist_of_grabs(0.05)),
