@@ -208,7 +208,7 @@ fn run_substep(world: &mut World, number: u32) {
     timed!(world, Stretch, sewn_pairs::join(world));
     timed!(world, Pairs, surface_stages::detect_contacts(world));
     timed!(world, SelfContacts, surface_stages::solve_contacts(world));
-    timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, number));
+    timed!(world, SelfContacts, surface_stages::enforce_non_crossing(world, Some(number)));
     timed!(world, Velocities, velocities::update(world));
     timed!(world, SelfContacts, contact_damping::damp_velocities(world));
     timed!(world, Velocities, impact_momentum::restore(world));

@@ -234,3 +234,54 @@ fn a_surface_may_fold_flat_and_unfold() {
     let is_finite = |x: &Vec3| x.is_finite() && x.length() < 10.0;
     assert!(cloth.positions().iter().all(is_finite));
 }
+
+/// Returns the height of a triangle above a point, if its vertical projection covers it [m].
+fn height_above(at: Vec3, [a, b, c]: [Vec3; 3]) -> Option<f32> {
+    let area = |p: Vec3, q: Vec3| (p - at).cross(q - at).y;
+    let weights = [area(b, c), area(c, a), area(a, b)];
+    let whole: f32 = weights.iter().sum();
+    let weights = weights.map(|weight| weight / whole);
+    let covers = weights.iter().all(|weight| *weight >= 0.0);
+    covers.then(|| a.y * weights[0] + b.y * weights[1] + c.y * weights[2] - at.y)
+}
+
+/// The bound of stretch and the layers are restored after the last substep. The surface is at rest
+/// then: if it still counted as moving, cloth that it carries along would seem to have come from below
+/// it.
+#[test]
+fn layers_stay_on_the_peaks_of_a_surface_that_sinks_fast() {
+    let (rest, body_indices) = plate(15, 0.7);
+    let peak = |v: usize| (v % 15) % 2 == 1 && (v / 15) % 2 == 1;
+    let bumpy = |sunk: f32| -> Vec<Vec3> {
+        let height = |v| if peak(v) { 0.03 } else { 0.0 };
+        rest.iter().enumerate().map(|(v, x)| *x + Vec3::Y * (height(v) - sunk)).collect()
+    };
+    let (sheet, indices) = plate(16, 0.45);
+    let layer = |height: f32| sheet.iter().map(move |x| *x + Vec3::Y * height);
+    let mut cloth = Cloth::mesh(&MeshDesc {
+        positions: layer(0.035).chain(layer(0.036)).collect(),
+        indices: indices.iter().copied().chain(indices.iter().map(|i| i + 256)).collect(),
+        settings: Settings {
+            self_collision: SelfCollision::Surface,
+            max_stretch: 0.03,
+            ..Settings::default()
+        },
+        ..MeshDesc::default()
+    })
+    .unwrap();
+    let body = cloth.add_collider(&mesh_body((bumpy(0.0), body_indices))).unwrap();
+    for tick in 1..=100 {
+        let time = (tick as f32 * TICK - 0.8).max(0.0);
+        let now = bumpy(3.0 * time * time);
+        cloth.update_collider(body, &now).unwrap();
+        cloth.step(1);
+        let x = cloth.positions();
+        for (v, top) in now.iter().enumerate().filter(|(v, _)| peak(*v)) {
+            for corners in cloth.indices().chunks_exact(3) {
+                let triangle = [0, 1, 2].map(|k| x[corners[k] as usize]);
+                let height = height_above(*top, triangle).unwrap_or(0.0);
+                assert!(height > -1.0e-4, "vertex {v} at tick {tick}: {height} m above {top}");
+            }
+        }
+    }
+}

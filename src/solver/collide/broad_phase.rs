@@ -19,7 +19,7 @@ use crate::solver::collide::any_moved::any_moved;
 use crate::solver::collide::contact_distance::{
     contact_gap, longest_free_edge, needs_triangle_tests, smoothing,
 };
-use crate::solver::collide::long_triangles::longest_edge_squared;
+use crate::solver::collide::long_triangles::{MeasuredSurface, longest_edge_squared};
 use crate::solver::collide::mid_phase::{CandidateRange, Earlier, PairSearch};
 use crate::solver::collide::nearby_blocks::{BLOCK, ColliderEntry, SweptBounds, of_deforming};
 use crate::solver::collide::particle_bounds;
@@ -111,7 +111,8 @@ pub(crate) fn refresh(world: &mut World, part: [f32; 2]) {
 fn refresh_long_triangles(world: &mut World) {
     let contacts = &mut world.scratch.contacts;
     let is_fast = world.substeps > world.settings.substeps;
-    if contacts.long.is_current() && !is_fast && contacts.long.list().is_empty() {
+    let room = contacts.room.shares();
+    if contacts.long.is_current() && !is_fast && contacts.long.list().is_empty() && room.is_none() {
         return;
     }
     let x = &world.particles.x;
@@ -119,7 +120,9 @@ fn refresh_long_triangles(world: &mut World) {
     let entries = contacts.nearby.entries.iter();
     let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
     let limit = near.fold(f32::INFINITY, |least, entry| min(entry.longest_free_edge, least));
-    contacts.long.refresh(limit * LISTED_LENGTH, x, &world.mesh.triangles, world.level);
+    let triangles = &world.mesh.triangles;
+    let surface = MeasuredSurface { x, triangles, room, level: world.level };
+    contacts.long.refresh(limit * LISTED_LENGTH, surface);
 }
 
 /// Returns whether a particle is farther than `limit` [m] from where the last rebuild predicted it at

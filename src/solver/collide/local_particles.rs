@@ -20,7 +20,7 @@ use crate::geometry::transform::Transform;
 use crate::math::columns::Columns;
 use crate::math::{max, min};
 use crate::model::maps::{Map, Maps};
-use crate::solver::collide::collider_contact::ColliderContact;
+use crate::solver::collide::collider_contact::{ColliderContact, NO_CONTACT};
 use crate::solver::collide::room::{Room, least};
 use crate::state::colliders::ColliderBody;
 use crate::state::settings::BdfScheme;
@@ -92,14 +92,19 @@ impl<'a> ContactScales<'a> {
         least(self.thickness, corners) * self.room(corners)
     }
 
-    /// Returns whether a particle is between colliders that leave it no room.
-    pub fn has_no_room(&self, i: usize) -> bool {
-        self.room(&[i]) == 0.0
+    /// Returns whether a particle is between colliders that leave it less than its gap.
+    pub fn has_less_room(&self, i: usize) -> bool {
+        self.room(&[i]) < 1.0
     }
 
-    /// The share of all distances that there is room for.
+    /// The shares of all particles, if any has less than all the room.
+    pub fn all_room(&self) -> Option<&'a [f32]> {
+        self.room
+    }
+
+    /// The share of all distances that there is room for at all these particles.
     #[inline(always)]
-    fn room(&self, corners: &[usize]) -> f32 {
+    pub fn room(&self, corners: &[usize]) -> f32 {
         least(self.room, corners)
     }
 }
@@ -283,9 +288,9 @@ impl LocalParticles<'_> {
         weight: f32,
     ) {
         self.x.add(i, correction);
-        let slot = self.contact_slots[i] as usize;
-        let earlier = self.contacts.get_mut(slot).filter(|one| one.is_between(i, self.body));
-        if let Some(contact) = earlier {
+        let last = ColliderContact::last_of(self.contacts, i, self.contact_slots[i]);
+        if let Some(at) = ColliderContact::find(self.contacts, last, self.body) {
+            let contact = &mut self.contacts[at];
             // The larger correction gives the normal.
             if correction.length_squared() > contact.correction.length_squared() {
                 contact.normal = normal;
@@ -304,11 +309,13 @@ impl LocalParticles<'_> {
                 correction,
                 gap: self.gap_of(i),
                 distance: 0.0,
+                way_in_crease: Vec3::ZERO,
                 height: 0.0,
                 pushed: 0.0,
                 friction: self.material.friction * self.contact_scales.friction(&[i], &[1.0]),
                 restitution: self.material.restitution,
                 tangential_restitution: self.material.tangential_restitution,
+                previous: last.map_or(NO_CONTACT, |at| at as u32),
             });
         }
     }

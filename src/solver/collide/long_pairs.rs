@@ -92,16 +92,17 @@ pub(super) fn boxes<'a>(
     long.map(move |at| motion_bounds(particles, mesh.triangles[*at as usize], distance))
 }
 
-/// Returns whether a triangle has an edge longer than `longest_free_edge` [m].
+/// Returns whether a triangle counts as long at the shape of `particles`.
 fn is_long(
     particles: &LocalParticles<'_>,
     mesh: &Mesh,
     triangle: u32,
     longest_free_edge: f32,
 ) -> bool {
-    let corners = mesh.triangles[triangle as usize];
-    let longest2 = longest_edge_squared(corners.map(|i| particles.end_position(i as usize)));
+    let corners = mesh.triangles[triangle as usize].map(|i| i as usize);
+    let longest2 = longest_edge_squared(corners.map(|i| particles.end_position(i)));
     longest2 > longest_free_edge * longest_free_edge
+        || particles.contact_scales.room(&corners) < 1.0
 }
 
 /// Returns the box of the motion of a triangle in the substep, with `distance` [m] around it.

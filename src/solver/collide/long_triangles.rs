@@ -4,6 +4,9 @@
 //! up to some length of their edges: the longest free edge of the collider. Cloth that is stretched
 //! beyond it, and the longest edges of an irregular mesh, are tested as triangles.
 //!
+//! Beside a particle that two colliders leave less than its gap (see `squeezed`), a triangle counts as
+//! long whatever its edges: its corner does not keep the margin.
+//!
 //! Edges are measured in the first substep of a tick, in each substep of a tick with added substeps
 //! or long triangles, and whenever a collider has pushed a particle far.
 //!
@@ -25,7 +28,17 @@ const SAFETY: f32 = 0.99;
 /// lengths.
 const FAR_PUSH: f32 = 0.2;
 
-/// The triangles with an edge longer than a limit.
+/// What long triangles are found from.
+#[derive(Clone, Copy)]
+pub(super) struct MeasuredSurface<'a> {
+    pub x: &'a Columns,
+    pub triangles: &'a [[u32; 3]],
+    /// The share of their gaps that there is room for, if any particle has less than all of it.
+    pub room: Option<&'a [f32]>,
+    pub level: Level,
+}
+
+/// The triangles with an edge longer than a limit, or with a corner that has not its whole gap.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LongTriangles {
     list: Vec<u32>,
@@ -60,11 +73,11 @@ impl LongTriangles {
     }
 
     /// Lists the triangles with an edge above `limit` [m].
-    pub fn refresh(&mut self, limit: f32, x: &Columns, triangles: &[[u32; 3]], level: Level) {
+    pub fn refresh(&mut self, limit: f32, surface: MeasuredSurface<'_>) {
         self.is_current = true;
         self.limit = limit;
         if limit < f32::INFINITY {
-            self.measure(x, triangles, level);
+            self.measure(surface);
         } else {
             self.list.clear();
         }
@@ -80,13 +93,12 @@ impl LongTriangles {
         &mut self,
         contacts: &[ColliderContact],
         mean_edge: f32,
-        (x, triangles): (&Columns, &[[u32; 3]]),
-        level: Level,
+        surface: MeasuredSurface<'_>,
     ) {
         let far = FAR_PUSH * mean_edge;
         let is_far = |contact: &ColliderContact| contact.correction.length_squared() > far * far;
         if self.limit < f32::INFINITY && contacts.iter().any(is_far) {
-            self.measure(x, triangles, level);
+            self.measure(surface);
         }
     }
 
@@ -96,23 +108,29 @@ impl LongTriangles {
         &mut self,
         pushed: f32,
         mean_edge: f32,
-        (x, triangles): (&Columns, &[[u32; 3]]),
-        level: Level,
+        surface: MeasuredSurface<'_>,
     ) -> bool {
         let is_far = self.limit < f32::INFINITY && pushed > FAR_PUSH * mean_edge;
         if is_far {
-            self.measure(x, triangles, level);
+            self.measure(surface);
         }
         is_far
     }
 
-    /// Lists the triangles with an edge above the limit.
+    /// Measures the edges again after particles between two colliders were left less room.
+    pub fn measure_after_narrowing(&mut self, surface: MeasuredSurface<'_>) {
+        if self.limit < f32::INFINITY {
+            self.measure(surface);
+        }
+    }
+
+    /// Lists the triangles with an edge above the limit, or with a corner that has less room.
     #[inline(never)]
-    fn measure(&mut self, x: &Columns, triangles: &[[u32; 3]], level: Level) {
+    fn measure(&mut self, MeasuredSurface { x, triangles, room, level }: MeasuredSurface<'_>) {
         let is_known = self.triangles == triangles.len() && self.measured.x.len() == x.x.len();
         // An edge grows by no more than what its two ends move.
         let slack = (self.limit * SAFETY - self.longest) * 0.5;
-        if is_known && slack > 0.0 {
+        if is_known && slack > 0.0 && room.is_none() {
             let mut has_moved = false;
             let (now, then) = (x.slices(), self.measured.slices());
             any_moved(level, now, then, slack * slack, &mut has_moved);
@@ -129,12 +147,17 @@ impl LongTriangles {
             let edge2 = longest_edge_squared(corners.map(|i| x.get(i as usize)));
             longest2 = max(edge2, longest2);
             // NaN is not listed: there is no contact with it.
-            if edge2 > limit2 {
+            if edge2 > limit2 || has_less_room(room, corners) {
                 self.list.push(at as u32);
             }
         }
         self.longest = longest2.sqrt();
     }
+}
+
+/// Returns whether a corner of a triangle has less room than its gap.
+fn has_less_room(room: Option<&[f32]>, corners: &[u32; 3]) -> bool {
+    room.is_some_and(|shares| corners.iter().any(|i| shares[*i as usize] < 1.0))
 }
 
 /// Returns the squared length of the longest edge of a triangle [m²].

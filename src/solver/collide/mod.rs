@@ -45,6 +45,7 @@ mod room;
 pub(crate) mod second_response;
 pub(crate) mod solid_meshes;
 mod squeezed;
+mod triangle_rounds;
 mod triangle_vs_round;
 
 pub(crate) use crate::solver::collide::projection::{PROJECTION_GAP, Projection};
@@ -131,13 +132,13 @@ pub(crate) fn project_out(world: &mut World, projection: Projection) {
 
 /// Pushes particles and triangles out of every collider in its pose at the end of this substep,
 /// without friction and restitution, and lists the particles that this moved in `pushed`. The
-/// contacts of the substep stay.
+/// contacts of the substep stay. Without a substep, colliders rest where they ended.
 ///
 /// With `starts`, the positions at the start of the substep, these particles go back to their start
 /// instead, as it moves along with the collider.
 pub(crate) fn project_out_in_substep(
     world: &mut World,
-    substep: u32,
+    substep: Option<u32>,
     starts: Option<&[Float4]>,
     pushed: &mut Vec<u32>,
 ) {
@@ -153,13 +154,13 @@ pub(crate) fn project_out_in_substep(
     contacts.collider_contacts.clear();
     // Contacts between layers stretch triangles far.
     contacts.long.invalidate();
-    broad_phase::refresh(world, substep_part(substep, substeps));
-    collider_solver::solve(
-        world,
-        &|body| substep_frames(body, substep, substeps),
-        substep_part(substep, substeps),
-        Some(Projection::Surface),
-    );
+    let frames = |body: &ColliderBody| match substep {
+        Some(substep) => substep_frames(body, substep, substeps),
+        None => [body.next.to_transform(); 2],
+    };
+    let part = substep.map_or([1.0, 0.0], |substep| substep_part(substep, substeps));
+    broad_phase::refresh(world, part);
+    collider_solver::solve(world, &frames, part, Some(Projection::Surface));
     let contacts = &mut world.scratch.contacts;
     core::mem::swap(&mut contacts.collider_contacts, &mut contacts.projections);
     let x = &mut world.particles.x;
@@ -183,7 +184,7 @@ pub(crate) fn project_out_in_substep(
         let (mut end, mut push) = (world.particles.x.get(i), projection.correction);
         let body = world.colliders.iter().nth(projection.body as usize);
         if let (Some(starts), Some(body)) = (starts, body) {
-            let [from, to] = substep_frames(body, substep, substeps);
+            let [from, to] = frames(body);
             let start = xyz(&starts[i]);
             let mut carried =
                 if from == to { start } else { to.point_to_world(from.point_to_local(start)) };

@@ -109,7 +109,7 @@ pub(super) fn solve(
         let corners = triangles[*triangle as usize].map(|i| i as usize);
         let motion = motion(corners);
         let edge2 = longest_edge_squared(motion.end);
-        if edge2 <= free * free {
+        if edge2 <= free * free && particles.contact_scales.room(&corners) == 1.0 {
             continue;
         }
         let longest = max(edge2, longest_edge_squared(motion.start)).sqrt();

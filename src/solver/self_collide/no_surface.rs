@@ -41,7 +41,7 @@ pub(crate) mod surface_stages {
 
     pub(crate) fn solve_contacts(_: &mut World) {}
 
-    pub(crate) fn enforce_non_crossing(_: &mut World, _: u32) {}
+    pub(crate) fn enforce_non_crossing(_: &mut World, _: Option<u32>) {}
 
     pub(crate) fn enforce_non_crossing_at_tick_end(_: &mut World) {}
 

@@ -372,10 +372,10 @@ fn gather_positions(world: &mut World) {
     }
 }
 
-/// Runs the non-crossing pass of substep `substep`, after all other stages moved particles. What it
-/// moves ends outside all colliders. Does nothing if a position is invalid: nothing can separate such
+/// Runs the non-crossing pass of substep `substep`, after all other stages moved particles; `None`
+/// after the last substep, when colliders rest. What it moves ends outside all colliders. Does nothing if a position is invalid: nothing can separate such
 /// positions, and the end of the tick restores them.
-pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
+pub(crate) fn enforce_non_crossing(world: &mut World, substep: Option<u32>) {
     if world.surface_collision.is_none() || !recover::are_positions_valid(world) {
         return;
     }
@@ -420,7 +420,7 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: u32) {
 fn project_out_of_colliders(
     surface: &mut SurfaceCollision,
     world: &mut World,
-    substep: u32,
+    substep: Option<u32>,
     pushed: &mut Vec<u32>,
 ) {
     for round in 0..COLLIDER_ROUNDS + ROLLBACK_ROUNDS {
@@ -463,8 +463,7 @@ pub(crate) fn enforce_non_crossing_at_tick_end(world: &mut World) {
     if let Some(surface) = &mut world.surface_collision {
         anchor_moved.iter().for_each(|i| surface.motion.now[*i as usize][3] = 0.0);
     }
-    let last = world.substeps - 1;
-    enforce_non_crossing(world, last);
+    enforce_non_crossing(world, None);
 }
 
 /// Separates those of `vertices` that have the same position as another copy after a split.
@@ -478,13 +477,13 @@ pub(crate) fn separate_splits(world: &mut World, vertices: impl Iterator<Item = 
     world.surface_collision = Some(surface);
     if displacements.iter().any(|displacement| *displacement != Vec3::ZERO) {
         begin_tick(world);
+        collide::begin_last_phase(world);
         for (vertex, displacement) in copies.iter().zip(&displacements) {
             world.particles.x.add(*vertex as usize, *displacement);
             world.particles.x_prev_tick.add(*vertex as usize, *displacement);
         }
         gather_positions(world);
-        let last = world.substeps - 1;
-        enforce_non_crossing(world, last);
+        enforce_non_crossing(world, None);
     }
     if let Some(surface) = &mut world.surface_collision {
         let split = &mut surface.split_separation;
