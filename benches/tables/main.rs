@@ -77,12 +77,9 @@ fn machine() -> String {
     let mut simd: Vec<&str> = Vec::new();
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
-        // `cargo xtask bench avx2` sets a limit and builds the kernels so that they obey it.
-        let is_limited = cfg!(muslin_simd_limit) && std::env::var_os("MUSLIN_SIMD_LIMIT").is_some();
         let features = [
             ("SSE2", std::is_x86_feature_detected!("sse2")),
             ("AVX2", std::is_x86_feature_detected!("avx2")),
-            ("AVX-512F", std::is_x86_feature_detected!("avx512f") && !is_limited),
         ];
         simd.extend(
             features.iter().filter(|(_, is_supported)| *is_supported).map(|(name, _)| name),

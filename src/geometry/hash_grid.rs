@@ -175,7 +175,7 @@ impl HashGrid {
 vectored! {
     /// As [`HashGrid::push_close_pairs`].
     fn push_close_pairs(grid: &mut HashGrid, radius2: f32, pairs: &mut Vec<[u32; 2]>)
-        = push_pairs_simd, Avx2, push_pairs_scalar
+        = push_pairs_simd, push_pairs_scalar
 }
 
 #[inline(always)]

@@ -67,7 +67,7 @@ leveled! {
     /// direction is projected onto the octahedron |x| + |y| + |z| = 1, and its lower half is folded
     /// outward over the diagonals. Zero stays zero.
     pub(crate) fn to_octahedral(x: &mut FloatBlock, y: &mut FloatBlock, z: &FloatBlock)
-        = octahedral_lanes, octahedral_lanes, Avx2
+        = octahedral_lanes
 }
 
 #[inline(always)]

@@ -13,8 +13,6 @@ const NODE: &str = "node";
 const PAGE: &str = "page";
 /// Other cloth libraries for pages; they run only by name, since npm downloads them.
 const PEERS: &str = "peers";
-/// Uses no vectors wider than those of AVX2, as on machines without AVX-512.
-const AVX2: &str = "avx2";
 /// Runs every case once and with small meshes, as a test.
 const TEST: &str = "--test";
 
@@ -30,16 +28,15 @@ pub fn run(arguments: &[String]) -> Result {
         return shell::run(shell::cargo(&build).args(rest));
     }
     let words: Vec<_> = arguments.iter().map(String::as_str).filter(|word| *word != "--").collect();
-    let is_known =
-        |word: &str| [NODE, PAGE, PEERS, AVX2, TEST].contains(&word) || NATIVE.contains(&word);
+    let is_known = |word: &str| [NODE, PAGE, PEERS, TEST].contains(&word) || NATIVE.contains(&word);
     if let Some(unknown) = words.iter().find(|word| !is_known(word)) {
         return Err(Failure::new(format!(
             "`cargo xtask bench` knows no {unknown:?}; it takes kernels, ticks, shreds, layers, scenes, \
-             receipt, crowd, node, page, peers, avx2 and --test, or meshes with files"
+             receipt, crowd, node, page, peers and --test, or meshes with files"
         )));
     }
     let options: &[&str] = if words.contains(&TEST) { &[TEST] } else { &[] };
-    let all = words.iter().all(|word| [AVX2, TEST].contains(word));
+    let all = words.iter().all(|word| *word == TEST);
     let wanted = NATIVE.iter().copied().filter(|name| all || words.contains(name));
     let wanted: Vec<_> = wanted.collect();
     if !wanted.is_empty() {
@@ -50,13 +47,9 @@ pub fn run(arguments: &[String]) -> Result {
             cargo.args(["--profile", bits::TEST_PROFILE]);
         }
         cargo.args(["--bench=tables", "--"]);
-        if words.contains(&AVX2) {
-            cargo.env("RUSTFLAGS", "--cfg muslin_simd_limit").env("MUSLIN_SIMD_LIMIT", AVX2);
-            cargo.env("CARGO_TARGET_DIR", files::root().join("target/avx2"));
-        }
         shell::run(cargo.args(wanted).args(options))?;
     }
-    if words.contains(&NODE) || all && !words.contains(&AVX2) {
+    if words.contains(&NODE) || all {
         run_node(options)?;
     }
     if words.contains(&PAGE) {

@@ -180,7 +180,7 @@ vectored! {
         smoothness: f32,
         with_tangents: bool,
         out: &mut SkinBlock,
-    ) = evaluate_lanes, Avx2, evaluate_scalar
+    ) = evaluate_lanes, evaluate_scalar
 }
 
 fn evaluate_scalar(

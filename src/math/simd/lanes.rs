@@ -10,7 +10,6 @@
 //! Neon     F32x4      4     NEON     (every aarch64)
 //! Simd128  F32x4      4     simd128  (WebAssembly, if compiled in)
 //! Avx2     F32x8      8     AVX2
-//! Avx512   F32x16    16     AVX-512 F and VL
 //! ```
 //!
 //! Reads and writes only the slices and points that a kernel passes in.
@@ -23,7 +22,7 @@ use crate::math::shared_points::SharedPoints;
 use core::ops::{Add, Div, Mul, Sub};
 
 /// Largest number of lanes of any instruction set.
-pub(crate) const MAX_LANES: usize = 16;
+pub(crate) const MAX_LANES: usize = 8;
 
 /// Lanes of one block of data that is stored in array-of-structures-of-arrays order.
 pub(crate) const LANES: usize = 8;

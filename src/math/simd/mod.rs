@@ -6,7 +6,6 @@
 //! Scalar      in tests only   in tests only  built without simd128   always
 //! Baseline    SSE2            NEON           simd128                 -
 //! Avx2        AVX2            -              -                       -
-//! Avx512      AVX-512 F + VL  -              -                       -
 //! ```
 //!
 //! [`Level::best`] runs once, when a cloth is created. Each dispatched function then takes the
@@ -42,7 +41,7 @@ pub(crate) use transpose::{gather_transpose, scatter_transpose, transpose_4x4};
 #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
 pub(crate) use wasm::Simd128;
 #[cfg(target_arch = "x86_64")]
-pub(crate) use x86::{Avx2, Avx512, Sse2};
+pub(crate) use x86::{Avx2, Sse2};
 
 /// The instruction set that every CPU of the target has, for code that is too small to be compiled
 /// once per level.
@@ -70,9 +69,6 @@ pub(crate) enum Level {
     /// AVX2, eight lanes.
     #[cfg(target_arch = "x86_64")]
     Avx2,
-    /// AVX-512 F and VL, sixteen lanes.
-    #[cfg(target_arch = "x86_64")]
-    Avx512,
 }
 
 impl Level {
@@ -99,11 +95,6 @@ impl Level {
     fn widest() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
-            let is_widest = std::is_x86_feature_detected!("avx512f")
-                && std::is_x86_feature_detected!("avx512vl");
-            if is_widest {
-                return Self::Avx512;
-            }
             if std::is_x86_feature_detected!("avx2") {
                 return Self::Avx2;
             }
@@ -126,8 +117,7 @@ impl Level {
     fn limited_to(self, limit: &str) -> Self {
         match (limit, self) {
             ("sse2", _) => Self::Baseline,
-            ("avx2", Self::Avx512) => Self::Avx2,
-            ("avx2", narrower) => narrower,
+            ("avx2", own) => own,
             _ => panic!("MUSLIN_SIMD_LIMIT must be sse2 or avx2, not {limit:?}"),
         }
     }
@@ -141,8 +131,6 @@ impl Level {
             Self::Baseline,
             #[cfg(target_arch = "x86_64")]
             Self::Avx2,
-            #[cfg(target_arch = "x86_64")]
-            Self::Avx512,
         ];
         let best = all.iter().position(|level| *level == Self::best());
         all[..=best.expect("the list of levels contains the best one")].to_vec()
@@ -153,13 +141,9 @@ impl Level {
 /// compiled for `level`. The body is a plain loop that the compiler vectorises.
 ///
 /// ```text
-/// leveled! { fn name(arguments…) = body }                 one body for all levels
-/// leveled! { fn name(arguments…) = body, wide }           `wide` at AVX2 and AVX-512
-/// leveled! { fn name(arguments…) = body, wide, Avx2 }     at AVX-512, the copy for AVX2 is called
+/// leveled! { fn name(arguments…) = body }           one body for all levels
+/// leveled! { fn name(arguments…) = body, wide }     `wide` at AVX2
 /// ```
-///
-/// The last form is for loops that spend their time in square roots and divisions: such an
-/// instruction of 512 bits takes twice as long as one of 256 bits.
 ///
 /// The bodies must be `#[inline(always)]`, so that they are compiled inside the function that
 /// enables the instructions.
@@ -173,14 +157,6 @@ macro_rules! leveled {
         $(#[$doc:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?)
             = $body:path, $fast:path
     ) => {
-        $crate::math::simd::leveled! {
-            $(#[$doc])* $vis fn $name($($arg: $type),*) = $body, $fast, Avx512
-        }
-    };
-    (
-        $(#[$doc:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?)
-            = $body:path, $fast:path, $widest:ident
-    ) => {
         $(#[$doc])*
         // V8 does not optimise functions above 61,440 bytes of bytecode; inlined kernels add up.
         #[cfg_attr(target_arch = "wasm32", inline(never))]
@@ -191,14 +167,9 @@ macro_rules! leveled {
                 fn avx2($($arg: $type),*) {
                     $fast($($arg),*);
                 }
-                let widest =
-                    $crate::math::simd::leveled!(@$widest avx2, $fast, $($arg: $type),*);
-                match level {
+                if level == $crate::math::simd::Level::Avx2 {
                     // SAFETY: `Level::best` returned this level, so the CPU has these instructions.
-                    $crate::math::simd::Level::Avx2 => return unsafe { avx2($($arg),*) },
-                    // SAFETY: as above.
-                    $crate::math::simd::Level::Avx512 => return unsafe { widest($($arg),*) },
-                    _ => {}
+                    return unsafe { avx2($($arg),*) };
                 }
             }
             // Compiled once, not once per caller of `$name`: few x86-64 CPUs lack AVX2.
@@ -210,14 +181,6 @@ macro_rules! leveled {
             baseline($($arg),*);
         }
     };
-    (@Avx2 $avx2:ident, $body:path, $($arg:ident: $type:ty),*) => { $avx2 };
-    (@Avx512 $avx2:ident, $body:path, $($arg:ident: $type:ty),*) => {{
-        #[target_feature(enable = "avx512f,avx512vl")]
-        fn avx512($($arg: $type),*) {
-            $body($($arg),*);
-        }
-        avx512
-    }};
 }
 pub(crate) use leveled;
 
@@ -225,8 +188,7 @@ pub(crate) use leveled;
 /// `s` of the instruction set of `level`.
 ///
 /// ```text
-/// vectored! { fn name(arguments…) = body, Avx2, scalar }     at AVX-512, 8 lanes are used too
-/// vectored! { fn name(arguments…) = body, Avx512, scalar }   at AVX-512, 16 lanes are used
+/// vectored! { fn name(arguments…) = body, scalar }
 /// ```
 ///
 /// At `Level::Scalar` it calls `scalar(arguments…)`.
@@ -236,7 +198,7 @@ pub(crate) use leveled;
 macro_rules! vectored {
     (
         $(#[$doc:meta])* $vis:vis fn $name:ident($($arg:ident: $type:ty),* $(,)?)
-            = $body:path, $widest:ident, $scalar:path
+            = $body:path, $scalar:path
     ) => {
         $(#[$doc])*
         // V8 does not optimise functions above 61,440 bytes of bytecode; inlined kernels add up.
@@ -253,8 +215,6 @@ macro_rules! vectored {
             fn baseline($($arg: $type),*) {
                 $body($crate::math::simd::Sse2::new(), $($arg),*);
             }
-            #[cfg(target_arch = "x86_64")]
-            let widest = $crate::math::simd::vectored!(@$widest avx2, $body, $($arg: $type),*);
             match level {
                 $crate::math::simd::Level::Scalar if $crate::math::simd::Level::HAS_SCALAR => {
                     $scalar($($arg),*);
@@ -262,9 +222,6 @@ macro_rules! vectored {
                 // SAFETY: `Level::best` returned this level, so the CPU has these instructions.
                 #[cfg(target_arch = "x86_64")]
                 $crate::math::simd::Level::Avx2 => unsafe { avx2($($arg),*) },
-                // SAFETY: as above.
-                #[cfg(target_arch = "x86_64")]
-                $crate::math::simd::Level::Avx512 => unsafe { widest($($arg),*) },
                 #[cfg(target_arch = "x86_64")]
                 _ => baseline($($arg),*),
                 #[cfg(target_arch = "aarch64")]
@@ -280,14 +237,6 @@ macro_rules! vectored {
             }
         }
     };
-    (@Avx2 $avx2:ident, $body:path, $($arg:ident: $type:ty),*) => { $avx2 };
-    (@Avx512 $avx2:ident, $body:path, $($arg:ident: $type:ty),*) => {{
-        #[target_feature(enable = "avx2,avx512f,avx512vl")]
-        fn avx512($($arg: $type),*) {
-            $body($crate::math::simd::Avx512::new(), $($arg),*);
-        }
-        avx512
-    }};
 }
 pub(crate) use vectored;
 
@@ -295,7 +244,6 @@ pub(crate) use vectored;
 #[cfg(all(muslin_simd_limit, target_arch = "x86_64"))]
 pub fn best_level_name() -> &'static str {
     match Level::best() {
-        Level::Avx512 => "avx512",
         Level::Avx2 => "avx2",
         _ => "sse2",
     }
@@ -307,14 +255,14 @@ mod tests {
 
     #[test]
     fn a_limit_narrows_the_level_and_never_widens_it() {
-        assert_eq!(Level::Avx512.limited_to("avx2"), Level::Avx2);
-        assert_eq!(Level::Avx512.limited_to("sse2"), Level::Baseline);
+        assert_eq!(Level::Avx2.limited_to("avx2"), Level::Avx2);
+        assert_eq!(Level::Avx2.limited_to("sse2"), Level::Baseline);
         assert_eq!(Level::Baseline.limited_to("avx2"), Level::Baseline);
     }
 
     #[test]
     #[should_panic(expected = "sse2 or avx2")]
     fn an_unknown_limit_is_refused() {
-        Level::Avx512.limited_to("sse4");
+        Level::Avx2.limited_to("sse4");
     }
 }

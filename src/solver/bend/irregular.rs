@@ -71,7 +71,7 @@ vectored! {
         rest: Option<&[f32]>,
         lambda: &mut VectorColumns,
         p: &mut Particles,
-    ) = solve_color_lanes, Avx2, solve_scalar
+    ) = solve_color_lanes, solve_scalar
 }
 
 /// Projects elements of one colour without SIMD.

@@ -43,7 +43,7 @@ pub(crate) fn compute_normals(
 leveled! {
     /// Computes the normals of a row from this row, the one above and the one below.
     fn compute_row_normals(normal: [&mut [f32]; 3], rows: [[&[f32]; 3]; 3])
-        = compute_row_normals_lanes, compute_row_normals_lanes, Avx2
+        = compute_row_normals_lanes
 }
 
 #[inline(always)]
@@ -132,7 +132,7 @@ fn twist_lanes(out: &mut [f32], x: &[f32], columns: usize) {
 leveled! {
     /// Replaces curvatures by their directions; zero for elements that are flat at rest.
     fn select_directions(direction: [&mut [f32]; 3], rest: &[f32], normal: [&[f32]; 3])
-        = select_directions_lanes, select_directions_lanes, Avx2
+        = select_directions_lanes
 }
 
 #[inline(always)]

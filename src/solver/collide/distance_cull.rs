@@ -81,7 +81,7 @@ leveled! {
         frames: &[Transform; 2],
         bound: DistanceBound,
         clearance: &mut [f32],
-    ) = compute_clearance_lanes, compute_clearance_lanes, Avx2
+    ) = compute_clearance_lanes
 }
 
 #[inline(always)]

@@ -186,7 +186,7 @@ vectored! {
         pressure: Pressure,
         band: RowBand,
         force: [&mut [f32]; 3],
-    ) = triangles::sum, Avx2, triangles::sum_scalar
+    ) = triangles::sum, triangles::sum_scalar
 }
 
 /// Adds the drag, times the mean painted scale of the corners, and the lift of each triangle to its

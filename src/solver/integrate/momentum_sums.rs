@@ -85,13 +85,13 @@ pub(crate) fn spin_and_inertia(
 vectored! {
     /// Sums m, m x and m d. Particle i goes to lane i mod 8.
     fn sum_momentum(free: FreeParticles<'_>, sums: &mut [LaneArray; 7])
-        = sum_momentum_lanes, Avx2, sum_momentum_scalar
+        = sum_momentum_lanes, sum_momentum_scalar
 }
 
 vectored! {
     /// Sums m r × (d − t) and the products of m r, where r leads from the centre of mass.
     fn sum_angular_momentum(free: FreeParticles<'_>, mean: [[f32; 3]; 2], sums: &mut [LaneArray; 9])
-        = sum_angular_momentum_lanes, Avx2, sum_angular_momentum_scalar
+        = sum_angular_momentum_lanes, sum_angular_momentum_scalar
 }
 
 fn sum_momentum_scalar(free: FreeParticles<'_>, sums: &mut [LaneArray; 7]) {

@@ -210,7 +210,7 @@ vectored! {
         rigid: RigidMotion,
         max_length: f32,
         is_clamped: &mut bool,
-    ) = clamp_lanes, Avx2, clamp_scalar
+    ) = clamp_lanes, clamp_scalar
 }
 
 #[inline(always)]

@@ -118,11 +118,11 @@ vectored! {
         contribution: AreaNormal,
         band: RowBand,
         sums: [&mut [f32]; 3],
-    ) = triangles::sum, Avx2, triangles::sum_scalar
+    ) = triangles::sum, triangles::sum_scalar
 }
 
 vectored! {
-    fn normalize(sums: [&mut [f32]; 3]) = normalize_lanes, Avx512, normalize_scalar
+    fn normalize(sums: [&mut [f32]; 3]) = normalize_lanes, normalize_scalar
 }
 
 #[inline(always)]

@@ -134,7 +134,7 @@ vectored! {
         contribution: TextureTangent,
         band: RowBand,
         sums: [&mut [f32]; 3],
-    ) = triangles::sum, Avx2, triangles::sum_scalar
+    ) = triangles::sum, triangles::sum_scalar
 }
 
 /// Direction in which u grows on a triangle, scaled by its area in the texture.

@@ -185,7 +185,7 @@ fn transform_points_lanes([x, y, z]: &mut VertexBlock, by: &Affine3) {
 }
 
 leveled! {
-    fn transform_directions(v: &mut VertexBlock, by: &Mat3) = transform_directions_lanes, transform_directions_lanes, Avx2
+    fn transform_directions(v: &mut VertexBlock, by: &Mat3) = transform_directions_lanes
 }
 
 #[inline(always)]
@@ -203,7 +203,7 @@ fn transform_directions_lanes([x, y, z]: &mut VertexBlock, by: &Mat3) {
 }
 
 leveled! {
-    fn orthogonalize(t: &mut VertexBlock, normals: &VertexBlock) = orthogonalize_lanes, orthogonalize_lanes, Avx2
+    fn orthogonalize(t: &mut VertexBlock, normals: &VertexBlock) = orthogonalize_lanes
 }
 
 /// Makes directions orthogonal to the normals and of unit length (Gram–Schmidt). If nothing of a

@@ -113,17 +113,17 @@ struct RowPass {
 
 /// Defines one function per law and pattern: WebAssembly engines compile one long function badly.
 macro_rules! kernels {
-    ($solve:ident, $widest:ident; $($name:ident: $law:ident $pattern:ident;)*) => {$(
+    ($solve:ident; $($name:ident: $law:ident $pattern:ident;)*) => {$(
         vectored! {
             #[cfg_attr(not(target_arch = "wasm32"), inline(never))] // `vectored` adds it on wasm32
             fn $name(rows: &[LinkRow], slices: &mut GridSlices<'_>, scale: f32, pass: &mut RowPass)
-                = $solve::<_, $law, $pattern>, $widest, no_simd
+                = $solve::<_, $law, $pattern>, no_simd
         }
     )*};
 }
 
 kernels! {
-    solve_intact, Avx512;
+    solve_intact;
     soft_straight: SOFT STRAIGHT;
     soft_pairs: SOFT PAIRS;
     soft_quads: SOFT QUADS;
@@ -135,9 +135,8 @@ kernels! {
     bound_quads: BOUND QUADS;
 }
 
-// Few rows are torn, so that AVX-512 versions would save less time than their code size is worth.
 kernels! {
-    solve_torn, Avx2;
+    solve_torn;
     torn_soft_straight: SOFT STRAIGHT;
     torn_soft_pairs: SOFT PAIRS;
     torn_soft_quads: SOFT QUADS;

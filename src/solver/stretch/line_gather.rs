@@ -97,7 +97,7 @@ vectored! {
         block: &[chain_blocks::ChainStep],
         points: LinePoints<'_>,
         steps: &mut [LineStep],
-    ) = gather_lanes::<_, false>, Avx2, gather_scalar::<false>
+    ) = gather_lanes::<_, false>, gather_scalar::<false>
 }
 
 vectored! {
@@ -106,7 +106,7 @@ vectored! {
         block: &[chain_blocks::ChainStep],
         points: LinePoints<'_>,
         steps: &mut [LineStep],
-    ) = gather_lanes::<_, true>, Avx2, gather_scalar::<true>
+    ) = gather_lanes::<_, true>, gather_scalar::<true>
 }
 
 fn gather_scalar<const SOFT: bool>(
@@ -154,7 +154,7 @@ vectored! {
         steps: &[LineStep],
         points: &mut [[f32; 4]],
         may_exceed: &mut bool,
-    ) = scatter_lanes, Avx2, scatter_clamped
+    ) = scatter_lanes, scatter_clamped
 }
 
 #[inline(always)]
@@ -216,7 +216,7 @@ pub(crate) fn scatter(world: &mut World) {
 vectored! {
     /// Interleaves columns of positions and inverse masses.
     fn interleave(columns: [&[f32]; 3], w: &[f32], points: &mut [[f32; 4]])
-        = interleave_lanes, Avx2, interleave_scalar
+        = interleave_lanes, interleave_scalar
 }
 
 vectored! {
@@ -225,13 +225,13 @@ vectored! {
         predicted: [&[f32]; 3],
         displacement: [&[f32]; 3],
         points: &mut [[f32; 4]],
-    ) = interleave_starts_lanes, Avx2, interleave_starts_scalar
+    ) = interleave_starts_lanes, interleave_starts_scalar
 }
 
 vectored! {
     /// Copies positions from interleaved points to columns.
     fn deinterleave(points: &[[f32; 4]], columns: [&mut [f32]; 3])
-        = deinterleave_lanes, Avx2, deinterleave_scalar
+        = deinterleave_lanes, deinterleave_scalar
 }
 
 #[inline(always)]

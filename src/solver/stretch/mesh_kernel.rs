@@ -103,17 +103,17 @@ struct MeshColor<'a> {
 
 vectored! {
     fn solve_soft(color: MeshColor<'_>, scale: f32)
-        = solve_color::<_, SOFT>, Avx2, solve_scalar::<SOFT>
+        = solve_color::<_, SOFT>, solve_scalar::<SOFT>
 }
 
 vectored! {
     fn solve_rigid(color: MeshColor<'_>, scale: f32)
-        = solve_color::<_, RIGID>, Avx2, solve_scalar::<RIGID>
+        = solve_color::<_, RIGID>, solve_scalar::<RIGID>
 }
 
 vectored! {
     fn solve_bound(color: MeshColor<'_>, scale: f32)
-        = solve_color::<_, BOUND>, Avx2, solve_scalar::<BOUND>
+        = solve_color::<_, BOUND>, solve_scalar::<BOUND>
 }
 
 /// Solves the links one by one.

@@ -90,7 +90,7 @@ pub(crate) fn solve<const LAW: u8, P: SparseLayout>(
 
 vectored! {
     fn solve_columns(color: SparseColor<'_>, p: &mut Particles, law: u8, scale: f32)
-        = columns_lanes, Avx2, columns_scalar
+        = columns_lanes, columns_scalar
 }
 
 #[inline(always)]
@@ -108,7 +108,7 @@ vectored! {
         particles: &mut InterleavedParticles,
         law: u8,
         scale: f32,
-    ) = solve_law, Avx2, interleaved_scalar
+    ) = solve_law, interleaved_scalar
 }
 
 fn interleaved_scalar(

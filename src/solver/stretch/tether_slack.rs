@@ -163,12 +163,12 @@ fn compute_pin_stretch(world: &World) -> f32 {
 vectored! {
     /// Raises `largest` to the largest squared ratio of distance to geodesic distance.
     fn max_ratio_to_single(x: [&[f32]; 3], pin: [f32; 3], length: &[f32], largest: &mut f32)
-        = single_ratio_lanes, Avx2, single_ratio_scalar
+        = single_ratio_lanes, single_ratio_scalar
 }
 
 vectored! {
     fn max_ratio_to_each(x: [&[f32]; 3], pins: [&[f32]; 3], length: &[f32], largest: &mut f32)
-        = each_ratio_lanes, Avx2, each_ratio_scalar
+        = each_ratio_lanes, each_ratio_scalar
 }
 
 #[inline(always)]

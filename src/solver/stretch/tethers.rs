@@ -159,7 +159,7 @@ fn project_columns(
 
 vectored! {
     fn columns_to_single(x: [&mut [f32]; 3], pin: [f32; 3], length: &[f32], slack: f32, w: &[f32])
-        = single_lanes, Avx512, single_scalar
+        = single_lanes, single_scalar
 }
 
 vectored! {
@@ -169,7 +169,7 @@ vectored! {
         length: &[f32],
         slack: f32,
         w: &[f32],
-    ) = each_lanes, Avx512, each_scalar
+    ) = each_lanes, each_scalar
 }
 
 #[inline(always)]

@@ -48,7 +48,7 @@ macro_rules! solving {
                 steps: &mut [LineStep],
                 links: &mut Links,
                 scale: f32,
-            ) = solve_lanes::<_, $soft, $gathers>, Avx2, solve_scalar::<$soft, $gathers>
+            ) = solve_lanes::<_, $soft, $gathers>, solve_scalar::<$soft, $gathers>
         }
     };
 }

@@ -52,12 +52,7 @@ pub fn instructions() -> &'static str {
     #[cfg(all(muslin_simd_limit, target_arch = "x86_64"))]
     return muslin::best_level_name();
     #[cfg(all(not(muslin_simd_limit), target_arch = "x86_64"))]
-    {
-        if std::is_x86_feature_detected!("avx512f") && std::is_x86_feature_detected!("avx512vl") {
-            return "avx512";
-        }
-        if std::is_x86_feature_detected!("avx2") { "avx2" } else { "sse2" }
-    }
+    return if std::is_x86_feature_detected!("avx2") { "avx2" } else { "sse2" };
     #[cfg(target_arch = "aarch64")]
     return "neon";
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]

@@ -1,13 +1,13 @@
-//! The instruction sets of x86-64: SSE2 with 4, AVX2 with 8 and AVX-512 with 16 lanes.
+//! The instruction sets of x86-64: SSE2 with 4 and AVX2 with 8 lanes.
 //!
-//! One vector type per register width (`F32x4`, `F32x8`, `F32x16`) and one token per instruction
+//! One vector type per register width (`F32x4`, `F32x8`) and one token per instruction
 //! set. Each operation is one intrinsic; `_mm_max_ps` and `_mm_min_ps` return their second operand
-//! for NaN, as [`Float`] demands. Shuffles of 256 and 512 bits work within each 128-bit part, hence
+//! for NaN, as [`Float`] demands. Shuffles of 256 bits work within each 128-bit part, hence
 //! the shuffled order of [`Simd::shuffle`].
 //!
 //! Reads and writes only through `load_from` and `store_to`.
-//! Invariant: a token exists only where the CPU has its instructions: `Avx2::new` and `Avx512::new`
-//! can be called only from a function that enables them.
+//! Invariant: a token exists only where the CPU has its instructions: `Avx2::new` can be called only
+//! from a function that enables them.
 
 mod gather;
 
@@ -23,10 +23,6 @@ pub(crate) struct Sse2(());
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
-/// AVX-512 F and VL, sixteen lanes.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Avx512(());
-
 impl Sse2 {
     #[inline(always)]
     pub fn new() -> Self {
@@ -37,14 +33,6 @@ impl Sse2 {
 impl Avx2 {
     #[inline]
     #[target_feature(enable = "avx2")]
-    pub fn new() -> Self {
-        Self(())
-    }
-}
-
-impl Avx512 {
-    #[inline]
-    #[target_feature(enable = "avx2,avx512f,avx512vl")]
     pub fn new() -> Self {
         Self(())
     }
@@ -133,11 +121,6 @@ vector! {
 vector! {
     F32x8(__m256), _mm256_add_ps, _mm256_sub_ps, _mm256_mul_ps,
     _mm256_div_ps, _mm256_sqrt_ps, _mm256_max_ps, _mm256_min_ps
-}
-
-vector! {
-    F32x16(__m512), _mm512_add_ps, _mm512_sub_ps, _mm512_mul_ps,
-    _mm512_div_ps, _mm512_sqrt_ps, _mm512_max_ps, _mm512_min_ps
 }
 
 // SAFETY of all functions below: `self` is a token, so the CPU has the instructions.
@@ -318,107 +301,5 @@ impl Simd for Avx2 {
     #[inline(always)]
     fn unshuffle(self, v: F32x8) -> F32x8 {
         self.shuffle(v)
-    }
-}
-
-impl Simd for Avx512 {
-    type F = F32x16;
-
-    const LANES: usize = 16;
-
-    #[inline(always)]
-    fn splat(self, value: f32) -> F32x16 {
-        // SAFETY: see above.
-        F32x16(unsafe { _mm512_set1_ps(value) })
-    }
-
-    #[inline(always)]
-    unsafe fn load_from(self, source: *const f32) -> F32x16 {
-        // SAFETY: the caller guarantees the pointer; see above.
-        F32x16(unsafe { _mm512_loadu_ps(source) })
-    }
-
-    #[inline(always)]
-    unsafe fn store_to(self, target: *mut f32, v: F32x16) {
-        // SAFETY: the caller guarantees the pointer; see above.
-        unsafe { _mm512_storeu_ps(target, v.0) };
-    }
-
-    #[inline(always)]
-    fn select(self, condition: F32x16, new: F32x16, old: F32x16) -> F32x16 {
-        // SAFETY: see above.
-        unsafe {
-            let mask = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(condition.0, _mm512_setzero_ps());
-            F32x16(_mm512_mask_blend_ps(mask, old.0, new.0))
-        }
-    }
-
-    #[inline(always)]
-    fn select_or_zero(self, condition: F32x16, v: F32x16) -> F32x16 {
-        // SAFETY: see above.
-        unsafe {
-            let mask = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(condition.0, _mm512_setzero_ps());
-            F32x16(_mm512_maskz_mov_ps(mask, v.0))
-        }
-    }
-
-    #[inline(always)]
-    fn any_positive(self, v: F32x16) -> bool {
-        // SAFETY: see above.
-        unsafe { _mm512_cmp_ps_mask::<_CMP_GT_OQ>(v.0, _mm512_setzero_ps()) != 0 }
-    }
-
-    #[inline(always)]
-    fn positive_mask(self, v: F32x16) -> u32 {
-        // SAFETY: see above.
-        u32::from(unsafe { _mm512_cmp_ps_mask::<_CMP_GT_OQ>(v.0, _mm512_setzero_ps()) })
-    }
-
-    #[inline(always)]
-    fn deinterleave(self, low: F32x16, high: F32x16) -> (F32x16, F32x16) {
-        // SAFETY: see above.
-        unsafe {
-            let even = _mm512_shuffle_ps::<0x88>(low.0, high.0);
-            (F32x16(even), F32x16(_mm512_shuffle_ps::<0xdd>(low.0, high.0)))
-        }
-    }
-
-    #[inline(always)]
-    fn interleave(self, even: F32x16, odd: F32x16) -> (F32x16, F32x16) {
-        // SAFETY: see above.
-        unsafe {
-            let low = _mm512_unpacklo_ps(even.0, odd.0);
-            (F32x16(low), F32x16(_mm512_unpackhi_ps(even.0, odd.0)))
-        }
-    }
-
-    #[inline(always)]
-    fn deinterleave_pairs(self, low: F32x16, high: F32x16) -> (F32x16, F32x16) {
-        // SAFETY: see above.
-        unsafe {
-            let even = _mm512_shuffle_ps::<0x44>(low.0, high.0);
-            (F32x16(even), F32x16(_mm512_shuffle_ps::<0xee>(low.0, high.0)))
-        }
-    }
-
-    #[inline(always)]
-    fn shuffle(self, v: F32x16) -> F32x16 {
-        // SAFETY: see above. AVX-512 shuffles within quarters, so pairs of numbers come from the
-        // two halves alternately.
-        unsafe {
-            let order = _mm512_setr_epi64(0, 4, 1, 5, 2, 6, 3, 7);
-            let pairs = _mm512_permutexvar_pd(order, _mm512_castps_pd(v.0));
-            F32x16(_mm512_castpd_ps(pairs))
-        }
-    }
-
-    #[inline(always)]
-    fn unshuffle(self, v: F32x16) -> F32x16 {
-        // SAFETY: see above.
-        unsafe {
-            let order = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7);
-            let pairs = _mm512_permutexvar_pd(order, _mm512_castps_pd(v.0));
-            F32x16(_mm512_castpd_ps(pairs))
-        }
     }
 }

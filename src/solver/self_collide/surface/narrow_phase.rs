@@ -147,12 +147,12 @@ struct NarrowPhaseBatch<'a> {
 
 vectored! {
     fn compute_vertex_triangle(batch: NarrowPhaseBatch<'_>)
-        = compute_lanes::<_, VERTEX_TRIANGLE>, Avx2, compute_vertex_triangle_scalar
+        = compute_lanes::<_, VERTEX_TRIANGLE>, compute_vertex_triangle_scalar
 }
 
 vectored! {
     fn compute_edge_edge(batch: NarrowPhaseBatch<'_>)
-        = compute_lanes::<_, EDGE_EDGE>, Avx2, compute_edge_edge_scalar
+        = compute_lanes::<_, EDGE_EDGE>, compute_edge_edge_scalar
 }
 
 fn compute_vertex_triangle_scalar(batch: NarrowPhaseBatch<'_>) {

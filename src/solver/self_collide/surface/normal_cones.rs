@@ -215,14 +215,14 @@ fn has_bit(bits: &[u8], pair: u32) -> bool {
 vectored! {
     fn compute_cones(
         blocks: &[ConeBlock], x: &[Float4], cones: &mut [NormalCone], only_turning: bool,
-    ) = compute_cones_lanes, Avx2, compute_cones_scalar
+    ) = compute_cones_lanes, compute_cones_scalar
 }
 
 vectored! {
     fn cull_pairs(
         pairs: &[ConePairBlock], first_vertex_block: usize, cones: &[&[NormalCone]],
         culled: &mut [u8],
-    ) = cull_pairs_lanes, Avx2, cull_pairs_scalar
+    ) = cull_pairs_lanes, cull_pairs_scalar
 }
 
 fn compute_cones_scalar(

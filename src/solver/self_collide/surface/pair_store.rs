@@ -121,12 +121,12 @@ impl PairStore {
 
 vectored! {
     fn measure_vertex_triangle(ids: &[[u32; 4]], x: &[Float4], separations: &mut [f32])
-        = measure_lanes::<_, VERTEX_TRIANGLE>, Avx2, measure_vertex_triangle_scalar
+        = measure_lanes::<_, VERTEX_TRIANGLE>, measure_vertex_triangle_scalar
 }
 
 vectored! {
     fn measure_edge_edge(ids: &[[u32; 4]], x: &[Float4], separations: &mut [f32])
-        = measure_lanes::<_, EDGE_EDGE>, Avx2, measure_edge_edge_scalar
+        = measure_lanes::<_, EDGE_EDGE>, measure_edge_edge_scalar
 }
 
 fn measure_vertex_triangle_scalar(ids: &[[u32; 4]], x: &[Float4], separations: &mut [f32]) {

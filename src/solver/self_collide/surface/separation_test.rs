@@ -176,12 +176,12 @@ struct SeparationBatch<'a> {
 
 vectored! {
     fn test_vertex_triangle(batch: SeparationBatch<'_>)
-        = test_lanes::<_, VERTEX_TRIANGLE>, Avx2, test_vertex_triangle_scalar
+        = test_lanes::<_, VERTEX_TRIANGLE>, test_vertex_triangle_scalar
 }
 
 vectored! {
     fn test_edge_edge(batch: SeparationBatch<'_>)
-        = test_lanes::<_, EDGE_EDGE>, Avx2, test_edge_edge_scalar
+        = test_lanes::<_, EDGE_EDGE>, test_edge_edge_scalar
 }
 
 fn test_vertex_triangle_scalar(batch: SeparationBatch<'_>) {

@@ -91,7 +91,7 @@ vectored! {
     /// separation.
     pub(crate) fn test_separated(
         pairs: &[SpeculativeContact], now: &[Float4], separated: &mut [u8],
-    ) = test_separated_lanes, Avx2, test_separated_scalar
+    ) = test_separated_lanes, test_separated_scalar
 }
 
 fn test_separated_scalar(pairs: &[SpeculativeContact], now: &[Float4], separated: &mut [u8]) {
