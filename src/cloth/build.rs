@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! GridDesc ──▶ grid positions, triangles ─┐
-//!                                         ├─▶ RestModel ──▶ World (all buffers at full capacity)
+//!                                         ├─▶ RestModel ──▶ World
 //! MeshDesc ──▶ intake::repair ────────────┘
 //! ```
 //!
@@ -10,14 +10,13 @@
 //! and the same bits.
 //!
 //! Reads a checked descriptor; writes a new `World`.
-//! Invariant: every buffer that tears and cuts may extend is reserved here, so that no tick
-//! allocates.
+//! Invariant: every list that a tick fills is allocated here and by `reserve`, so that no tick
+//! allocates: for a cloth that can tear, as large as tears can make it.
 
 use crate::arena::Arena;
 use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::error::Result;
 use crate::geometry::triangle::corner_areas;
-use crate::math::reserve::ReserveTotal;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid;
@@ -26,7 +25,7 @@ use crate::mesh::grid_detection::DetectedGrid;
 use crate::mesh::intake;
 use crate::mesh::intake::{RepairedMesh, Simplify};
 use crate::mesh::report::MeshReport;
-use crate::mesh::{Mesh, NONE, next_corner};
+use crate::mesh::{Mesh, next_corner};
 use crate::model::chains::Chains;
 use crate::model::constraints::Constraints;
 use crate::model::folds::Folds;
@@ -37,12 +36,11 @@ use crate::model::material::Material;
 use crate::model::pin_order::PinOrder;
 use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
-use crate::solver::bend;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::profile::Profile;
 use crate::solver::self_collide::contact_forces::WarmStart;
-use crate::solver::stretch::{damping_scratch, line_scratch};
-use crate::solver::world::{TickScratch, World};
+use crate::solver::tick_scratch::TickScratch;
+use crate::solver::world::World;
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::MAX_ATTACHMENTS;
 use crate::state::colliders::MAX_COLLIDERS;
@@ -113,7 +111,8 @@ fn world_from_grid(desc: &GridDesc) -> (World, MeshReport) {
     }
     let grid = DetectedGrid { columns: desc.columns, rows: desc.rows, frame };
     let capacity = desc.capacity();
-    let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), capacity);
+    let allocated = if desc.settings.tearing { capacity } else { rest.len() };
+    let mesh = Mesh::new(grid::triangles(desc.columns, desc.rows), rest.len(), allocated);
     let (count, triangles) = (rest.len() as u32, mesh.triangles.len() as u32);
     let mut report = MeshReport {
         vertices: count,
@@ -125,7 +124,7 @@ fn world_from_grid(desc: &GridDesc) -> (World, MeshReport) {
         ..MeshReport::default()
     };
     report.measure_quality(&mesh, |particle| rest[particle as usize], |triangle| triangle);
-    let rest_model = RestModel::from_grid(&grid, mesh, rest, capacity);
+    let rest_model = RestModel::from_grid(&grid, mesh, rest, allocated);
     let (material, settings) = (&desc.material, &desc.settings);
     (build_world(rest_model, origin, desc.pinned(), capacity, material, settings), report)
 }
@@ -133,21 +132,23 @@ fn world_from_grid(desc: &GridDesc) -> (World, MeshReport) {
 /// Repairs the mesh, detects a regular grid, and builds the world.
 fn world_from_mesh(desc: &MeshDesc) -> Result<(World, MeshReport)> {
     let (positions, indices) = (&desc.positions, &desc.indices);
-    let capacity_for = |particles: usize| desc.capacity(particles);
+    let is_tearing = desc.settings.tearing;
+    let allocated_for =
+        |particles| desc.capacity(particles).map(|all| if is_tearing { all } else { particles });
     let simplify = Simplify { below: desc.simplify_below, uvs: &desc.uvs, pinned: &desc.pinned };
     let RepairedMesh { mesh, source_vertices, seams, mut report } =
-        intake::repair(positions, indices, desc.weld_distance, &simplify, capacity_for)?;
+        intake::repair(positions, indices, desc.weld_distance, &simplify, allocated_for)?;
     let mut rest: Vec<Vec3> =
         source_vertices.iter().map(|vertex| positions[*vertex as usize]).collect();
     let origin = initial_origin(&rest);
     rest.iter_mut().for_each(|x| *x -= origin);
-    let capacity = desc.capacity(rest.len())?;
+    let (capacity, allocated) = (desc.capacity(rest.len())?, allocated_for(rest.len())?);
     let rest_model = match DetectedGrid::detect(&mesh.triangles, &rest) {
         Some(grid) => {
             report.is_grid = true;
-            RestModel::from_grid(&grid, mesh, rest, capacity)
+            RestModel::from_grid(&grid, mesh, rest, allocated)
         }
-        None => RestModel::from_mesh(mesh, rest, capacity),
+        None => RestModel::from_mesh(mesh, rest, allocated),
     };
     let pinned = match &seams {
         Some(seams) => seams.particles_of(&desc.pinned),
@@ -159,6 +160,9 @@ fn world_from_mesh(desc: &MeshDesc) -> Result<(World, MeshReport)> {
     let extra = capacity - world.particles.len();
     if let Some(seams) = &mut world.seams {
         seams.set_capacity(extra, world.triangle_capacity);
+        if world.has_tear_reserve {
+            seams.reserve();
+        }
     }
     Ok((world, report))
 }
@@ -178,7 +182,7 @@ impl RestModel {
     /// The rest model of a regular grid: grid links, grid cells and plate elements.
     fn from_grid(grid: &DetectedGrid, mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
         let DetectedGrid { columns, rows, frame } = *grid;
-        let opened_edges = max_opened_edges(&mesh, capacity);
+        let opened_edges = mesh.max_opened_edges(capacity);
         let mut constraints =
             Constraints::from_grid(columns, rows, frame.spacing, &mesh, opened_edges);
         constraints.set_thread_directions([frame.right, frame.down]);
@@ -196,8 +200,7 @@ impl RestModel {
 
     /// The rest model of any repaired mesh: links along edges, and hinges.
     fn from_mesh(mesh: Mesh, rest: Vec<Vec3>, capacity: usize) -> Self {
-        let mut constraints =
-            Constraints::from_mesh(&mesh, &rest, max_opened_edges(&mesh, capacity));
+        let mut constraints = Constraints::from_mesh(&mesh, &rest, mesh.max_opened_edges(capacity));
         constraints.hinges = Hinges::new(&mesh, &constraints.links, &rest);
         let corners = |triangle: &[u32; 3]| triangle.map(|v| rest[v as usize]);
         let areas = mesh.triangles.iter().map(|triangle| corner_areas(corners(triangle))).collect();
@@ -222,7 +225,8 @@ fn build_world(
     let RestModel { mesh, mut constraints, rest, frame, areas, cells, plates } = rest_model;
     constraints.chains = Chains::new(&constraints.links, &rest, capacity > rest.len());
     let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
-    let max_tears = settings.max_tears(triangle_capacity);
+    let has_tear_reserve = settings.tearing;
+    let allocated = if has_tear_reserve { capacity } else { rest.len() };
     let mut folds = match &plates {
         Some(plates) => Folds::of_plates(plates),
         None => Folds::of_hinges(&constraints.hinges),
@@ -230,10 +234,10 @@ fn build_world(
     folds.reserve_hardening(material);
     let mut world = World {
         mean_edge: mean_edge(&mesh, &rest),
-        particles: Particles::at_rest(&rest, capacity),
+        particles: Particles::at_rest(&rest, allocated),
         mass_scales: MassScales::default(),
-        tethers: Tethers::with_capacity(capacity),
-        scratch: TickScratch::new(rest.len(), capacity, mesh.triangles.len(), max_tears),
+        tethers: Tethers::with_capacity(allocated),
+        scratch: TickScratch::new(rest.len(), allocated),
         pins: Pins::default(),
         attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),
@@ -247,7 +251,9 @@ fn build_world(
         wind: Wind::default(),
         clock: FrameClock::default(),
         pieces: 0,
+        particle_capacity: capacity,
         triangle_capacity,
+        has_tear_reserve,
         reserve_reported: false,
         violations: Violations::default(),
         substeps: settings.substeps,
@@ -269,7 +275,7 @@ fn build_world(
         rest_origin: origin,
         origin,
         cut_sites: Vec::new(),
-        crack_tips: Vec::with_capacity(capacity),
+        crack_tips: Vec::with_capacity(allocated),
         corner_area: areas,
         grid_frame: frame,
         grid_cells: cells,
@@ -280,28 +286,18 @@ fn build_world(
         is_tangled: true,
         surface_collision: None,
     };
-    world.pins.reserve(capacity);
-    world.tethers.reserve(capacity, world.mesh.triangles.len());
-    world.reserve_scratch(capacity);
-    world.pin_order.reserve(capacity, world.constraints.links.len());
+    world.label_pieces();
+    world.reserve_fresh();
     for particle in pinned {
         let x = world.rest[particle as usize];
         world.pins.insert(particle, x, x);
     }
-    world.label_pieces();
     world.rebuild_crack_tips();
     world.compute_masses();
     world.constraints.update_compliances(material, &world.maps);
     world.rebuild_tethers();
     world.reset_history();
     world
-}
-
-/// Returns the number of edges that tears can open at most: each new vertex opens up to two, and
-/// only inner edges can open.
-fn max_opened_edges(mesh: &Mesh, capacity: usize) -> usize {
-    let inner_edges = mesh.edges().filter(|edge| mesh.across(*edge) != NONE).count();
-    inner_edges.min(2 * (capacity - mesh.vertex_count()))
 }
 
 /// Returns the mean of the two shorter edges of all triangles [m]; on a grid, the spacing.
@@ -318,78 +314,4 @@ fn mean_edge(mesh: &Mesh, rest: &[Vec3]) -> f32 {
         count += 1.0;
     }
     (sum / count) as f32
-}
-
-impl World {
-    /// Reserves every list that tears may extend for `capacity` particles.
-    pub(crate) fn reserve(&mut self, capacity: usize) {
-        let reserve = |list: &mut Vec<u32>| list.reserve_total(capacity);
-        reserve(&mut self.mesh.source);
-        reserve(&mut self.mesh.corner_of);
-        if let Some(seams) = &mut self.seams {
-            seams.reserve();
-        }
-        self.particles.reserve(capacity);
-        self.mass_scales.reserve(capacity);
-        self.maps.reserve(capacity);
-        self.crack_tips.reserve_total(capacity);
-        self.pins.reserve(capacity);
-        self.events.reserve();
-        let opened_edges = max_opened_edges(&self.mesh, capacity.max(self.mesh.vertex_count()));
-        self.constraints.reserve(opened_edges, capacity);
-        if let Some(cells) = &mut self.grid_cells {
-            cells.reserve();
-        }
-        if let Some(plates) = &mut self.plate_elements {
-            plates.reserve(capacity);
-        }
-        self.tethers.reserve(capacity, self.mesh.triangles.len());
-        self.pin_order.reserve(capacity, self.constraints.links.len());
-        self.scratch = TickScratch::new(
-            self.particles.len(),
-            capacity,
-            self.mesh.triangles.len(),
-            self.settings.max_tears(self.triangle_capacity),
-        );
-        self.reserve_scratch(capacity);
-        self.reserve_effective_mass();
-        self.reserve_anchor_scratch();
-        self.reserve_contacts();
-        self.rebuild_particle_collision();
-        self.rebuild_surface_collision();
-        self.label_pieces();
-    }
-
-    /// Reserves what tears may still need, after a cut added triangles.
-    pub(crate) fn reserve_for_tears(&mut self) {
-        let opened_edges = max_opened_edges(&self.mesh, self.capacity());
-        self.constraints.reserve(opened_edges, self.capacity());
-        self.tethers.reserve(self.capacity(), self.mesh.triangles.len());
-        let (triangles, scratch) = (self.mesh.triangles.len(), &mut self.scratch);
-        scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
-        scratch.piece_stack.reserve_total(triangles);
-        scratch.pieces.reserve();
-        scratch.piece_groups.reserve(triangles);
-    }
-
-    /// Allocates the scratch buffers of the solver stages for `capacity` particles.
-    fn reserve_scratch(&mut self, capacity: usize) {
-        self.scratch.end_weights.reserve(capacity, self.constraints.links.len());
-        if self.constraints.rows.is_none() {
-            self.scratch.interleaved.reserve(capacity);
-        }
-        let has_grid_rows = self.constraints.rows.is_some();
-        let steps = self.constraints.chains.blocks.max_steps();
-        self.scratch.lines = line_scratch::LineScratch::new(steps, capacity, has_grid_rows);
-        self.scratch.bend = bend::bend_scratch::BendScratch::new(
-            self.plate_elements.as_ref(),
-            self.mesh.triangles.len(),
-            self.constraints.hinges.all.len(),
-            capacity,
-        );
-        self.scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
-        let extra = max_opened_edges(&self.mesh, capacity.max(self.mesh.vertex_count()));
-        self.scratch.damping =
-            damping_scratch::DampingScratch::new(self.constraints.links.len(), extra);
-    }
 }

@@ -69,6 +69,7 @@ impl Cloth {
         if !plan.fits(self.world.capacity(), self.world.triangle_capacity) {
             return Err(Error::Full { what: "the whole cut" });
         }
+        self.reserve_for_tears();
         with_float_env(|| {
             cut::cut(&mut self.world, &plan);
             self.world.rebuild_particle_collision();

@@ -54,8 +54,8 @@ pub struct GridDesc {
     pub down: Vec3,
     /// Particles that are pinned from the start. Default: the top edge.
     pub pin_mode: PinMode,
-    /// Particles to reserve for tears and cuts. Default [`AS_MANY_AGAIN`]; 0 if the cloth never
-    /// tears.
+    /// Particles to reserve for tears and cuts. Default [`AS_MANY_AGAIN`]. Memory for them is
+    /// allocated with [`Settings::tearing`], or by the first tear or cut.
     pub extra_particles: u32,
     /// The material.
     pub material: Material,
@@ -158,8 +158,8 @@ pub struct MeshDesc {
     /// Corners of one triangle are never welded together. Choose a value well below the shortest
     /// edge.
     pub weld_distance: f32,
-    /// Particles to reserve for tears and cuts. Default [`AS_MANY_AGAIN`]; 0 if the cloth never
-    /// tears.
+    /// Particles to reserve for tears and cuts. Default [`AS_MANY_AGAIN`]. Memory for them is
+    /// allocated with [`Settings::tearing`], or by the first tear or cut.
     pub extra_particles: u32,
     /// The material.
     pub material: Material,

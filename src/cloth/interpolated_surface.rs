@@ -42,6 +42,18 @@ impl InterpolatedSurface {
         }
     }
 
+    /// Allocates for `particles` particles and `vertices` vertices in all.
+    pub fn reserve(&mut self, particles: usize, vertices: usize) {
+        self.particle_capacity = particles;
+        self.normals.reserve(particles);
+        if !self.positions.x.is_empty() {
+            self.positions.reserve(particles);
+        }
+        if let Some(tangents) = &mut self.tangents {
+            tangents.reserve(vertices);
+        }
+    }
+
     /// Makes an empty surface with room for as many particles.
     pub fn with_same_capacity(&self) -> Self {
         Self::with_capacity(self.particle_capacity)
@@ -93,7 +105,7 @@ impl InterpolatedSurface {
             self.blend_of_normals = Some(blend);
         }
         if let Some(uvs) = uvs {
-            let new_tangents = || Box::new(Tangents::with_capacity(world.vertex_capacity()));
+            let new_tangents = || Box::new(Tangents::with_capacity(world.allocated_vertices()));
             self.tangents.get_or_insert_with(new_tangents).update(world, uvs, x, blend);
         }
     }

@@ -63,7 +63,7 @@ impl Cloth {
             }
         }
         world.wake();
-        world.maps.set(map, scales.unwrap_or_default(), world.capacity());
+        world.maps.set(map, scales.unwrap_or_default(), world.allocated_particles());
         with_float_env(|| match map {
             Map::Stretch => world.constraints.update_compliances(&world.material, &world.maps),
             Map::Thickness => refresh_contact_distances(world),

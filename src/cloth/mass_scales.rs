@@ -33,7 +33,7 @@ impl Cloth {
         for (particle, scale) in particles.iter().zip(scales) {
             world.mass_scales.set(*particle, *scale, count);
         }
-        world.mass_scales.reserve(world.capacity());
+        world.mass_scales.reserve(world.allocated_particles());
         with_float_env(|| world.compute_masses());
         Ok(())
     }

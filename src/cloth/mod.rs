@@ -40,6 +40,7 @@ mod pins;
 mod postcard;
 pub(crate) mod query;
 mod ray_tree;
+mod reserve;
 #[cfg(feature = "save")]
 mod save;
 mod sew;
@@ -87,7 +88,7 @@ use crate::state::events::Event;
 /// - **Errors**: a call that returns an error changes nothing.
 /// - **Units**: metres, kilograms, seconds, radians; right-handed axes. Gravity is a setting; y is
 ///   up by default.
-/// - **Memory** for tears is reserved when the cloth is made (`extra_particles`), so a tick
+/// - **Memory** for tears (`extra_particles`) is reserved with [`Settings::tearing`], so a tick
 ///   allocates nothing.
 /// - **Threads**: a cloth is `Send` and `Sync`. Calls that change nothing may run on several threads
 ///   at once.
@@ -116,6 +117,7 @@ use crate::state::events::Event;
 /// # Ok::<(), muslin::Error>(())
 /// ```
 ///
+/// [`Settings::tearing`]: crate::Settings::tearing
 /// [`Settings::tick`]: crate::Settings::tick
 #[derive(Debug)]
 pub struct Cloth {
@@ -138,24 +140,20 @@ impl Clone for Cloth {
     /// Returns an independent cloth in the same state. Handles of grabs, attachments and colliders
     /// are valid for both.
     fn clone(&self) -> Self {
-        let mut copy = Self {
+        let mut world = self.world.clone();
+        // A cloned `Vec` has no spare capacity: reserve again what tears may need.
+        world.reserve();
+        Self {
             desc: self.desc.clone(),
-            world: self.world.clone(),
-            outputs: Outputs::new(&self.world),
+            outputs: Outputs::new(&world, &self.desc),
+            world,
             report: self.report,
             pins_changed: self.pins_changed,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
             history: self.history.clone(),
             ray_tree: RayTree::default(),
-        };
-        // A cloned `Vec` has no spare capacity: reserve again what tears may need.
-        copy.world.reserve(self.world.capacity());
-        copy.outputs = Outputs::new(&copy.world);
-        copy.outputs.set_uvs(&copy.desc);
-        copy.outputs.update_topology(&copy.world);
-        copy.outputs.update_positions(&copy.world);
-        copy
+        }
     }
 }
 
@@ -220,10 +218,7 @@ impl Cloth {
             world.rebuild_particle_collision();
             world.rebuild_surface_collision();
         });
-        let mut outputs = Outputs::new(&world);
-        outputs.set_uvs(&desc);
-        outputs.update_topology(&world);
-        outputs.update_positions(&world);
+        let outputs = Outputs::new(&world, &desc);
         Ok(Self {
             desc,
             world: TrackedWorld::new(world),
@@ -270,6 +265,9 @@ impl Cloth {
         core::mem::swap(&mut fresh.attachments, &mut self.world.attachments);
         fresh.attachments.clear();
         core::mem::swap(&mut fresh.sewing, &mut self.world.sewing);
+        if self.world.has_tear_reserve && !fresh.has_tear_reserve {
+            fresh.add_tear_reserve();
+        }
         fresh.scratch.tear.reserve(fresh.settings.max_tears(fresh.triangle_capacity));
         let world = &mut *self.world;
         *world = fresh;

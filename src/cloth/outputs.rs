@@ -5,13 +5,14 @@
 //! one to the other.
 //!
 //! Reads `World`; writes its own lists.
-//! Invariant: the lists keep their addresses as long as the cloth lives, since hosts hold pointers
-//! to them; so they are reserved to full capacity at creation, and new content is copied into them.
+//! Invariant: ticks, tears and cuts keep the addresses of the lists, so these are reserved for all
+//! that the world has memory for, and new content is copied into them.
 
 use crate::cloth::build::ClothDesc;
 use crate::cloth::change_history::{ChangedRanges, changed_range};
 use crate::cloth::interpolated_surface::InterpolatedSurface;
 use crate::math::float_env::with_float_env;
+use crate::math::reserve::ReserveTotal;
 use crate::mesh::split_edge::CutSite;
 use crate::solver::output::normals;
 use crate::solver::world::World;
@@ -50,8 +51,9 @@ pub(crate) struct Outputs {
     pub indices: Vec<u32>,
 }
 
-/// Per-vertex attributes of a new topology, before they replace the current ones.
-#[derive(Debug)]
+/// Per-vertex attributes of a new topology, before they replace the current ones. Empty between
+/// changes of a cloth that cannot tear.
+#[derive(Debug, Default)]
 struct PendingAttributes {
     uvs: Vec<Vec2>,
     sources: Vec<u32>,
@@ -61,36 +63,64 @@ struct PendingAttributes {
     frayed_particles: Vec<bool>,
 }
 
+impl PendingAttributes {
+    /// Allocates for `particles` particles and `vertices` vertices.
+    fn reserve(&mut self, particles: usize, vertices: usize) {
+        self.uvs.reserve_total(vertices);
+        self.sources.reserve_total(vertices);
+        self.frayed.reserve_total(vertices);
+        self.particles.reserve_total(vertices);
+        self.frayed_particles.reserve_total(particles);
+    }
+}
+
 impl Outputs {
-    /// Reserves every list for as many vertices and triangles as the cloth may ever have.
-    pub fn new(world: &World) -> Self {
-        let (particles, capacity) = (world.capacity(), world.vertex_capacity());
-        Self {
-            positions: Vec::with_capacity(capacity),
+    /// Makes the lists of a world, with the texture coordinates of its descriptor.
+    pub fn new(world: &World, desc: &ClothDesc) -> Self {
+        let mut outputs = Self {
+            positions: Vec::new(),
             relative_positions: Vec::new(),
             are_relative_positions_current: false,
-            normals: Vec::with_capacity(capacity),
+            normals: Vec::new(),
             are_normals_current: false,
-            surface: InterpolatedSurface::with_capacity(particles),
-            uvs: Vec::with_capacity(capacity),
+            surface: InterpolatedSurface::with_capacity(world.allocated_particles()),
+            uvs: Vec::new(),
             rest_uvs: Vec::new(),
             rest_sources: Vec::new(),
-            sources: Vec::with_capacity(capacity),
-            frayed: Vec::with_capacity(capacity),
-            particles: Vec::with_capacity(capacity),
-            pending: PendingAttributes {
-                uvs: Vec::with_capacity(capacity),
-                sources: Vec::with_capacity(capacity),
-                frayed: Vec::with_capacity(capacity),
-                particles: Vec::with_capacity(capacity),
-                frayed_particles: Vec::with_capacity(particles),
-            },
-            indices: Vec::with_capacity(3 * world.triangle_capacity),
+            sources: Vec::new(),
+            frayed: Vec::new(),
+            particles: Vec::new(),
+            pending: PendingAttributes::default(),
+            indices: Vec::new(),
+        };
+        outputs.reserve(world);
+        outputs.set_uvs(desc);
+        outputs.update_topology(world);
+        outputs.update_positions(world);
+        outputs
+    }
+
+    /// Allocates every list for as many vertices and triangles as the world has memory for.
+    pub fn reserve(&mut self, world: &World) {
+        let (particles, vertices) = (world.allocated_particles(), world.allocated_vertices());
+        self.positions.reserve_total(vertices);
+        self.normals.reserve_total(vertices);
+        self.surface.reserve(particles, vertices);
+        self.uvs.reserve_total(vertices);
+        self.sources.reserve_total(vertices);
+        self.frayed.reserve_total(vertices);
+        self.particles.reserve_total(vertices);
+        self.indices.reserve_total(3 * world.allocated_triangles());
+        if world.has_tear_reserve {
+            self.pending.reserve(particles, vertices);
+        }
+        if self.relative_positions.capacity() > 0 {
+            self.relative_positions.reserve_total(vertices);
         }
     }
 
     /// Sets the texture coordinates and sources of the descriptor's vertices.
-    pub fn set_uvs(&mut self, desc: &ClothDesc) {
+    fn set_uvs(&mut self, desc: &ClothDesc) {
         self.rest_uvs = with_float_env(|| desc.uvs());
         self.rest_sources = (0..self.rest_uvs.len() as u32).collect();
     }
@@ -167,6 +197,9 @@ impl Outputs {
         self.particles.clone_from(&pending.particles);
         self.indices.clear();
         self.indices.extend_from_slice(indices);
+        if !world.has_tear_reserve {
+            self.pending = PendingAttributes::default();
+        }
         change
     }
 

@@ -34,7 +34,6 @@ impl Cloth {
             |settings: &Settings| (settings.self_collision, settings.self_distance);
         let changes_self_collision = self_collision(&settings) != self_collision(&world.settings);
         let had_no_surface_collision = world.surface_collision.is_none();
-        world.scratch.tear.reserve(settings.max_tears(world.triangle_capacity));
         let was_unlimited = world.settings.max_stretch == 0.0;
         if settings != world.settings {
             world.wake();
@@ -43,6 +42,9 @@ impl Cloth {
         world.settings = settings;
         // A new number of substeps takes effect when the next tick begins.
         let after = world.regular_scheme();
+        if world.has_tear_reserve {
+            world.scratch.tear.reserve(world.settings.max_tears(world.triangle_capacity));
+        }
         if was_unlimited {
             world.rebuild_pin_order();
         }
@@ -68,6 +70,9 @@ impl Cloth {
                 world.warm_start.change_step(before.h, after.h);
                 world.refresh_soft_pin_masses();
             });
+        }
+        if self.world.settings.tearing {
+            self.reserve_for_tears();
         }
         if had_no_surface_collision && self.world.surface_collision.is_some() {
             self.update_state();

@@ -280,13 +280,16 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require((1..=Settings::MAX_SUBSTEPS).contains(&saved.substeps))?;
     world.substeps = saved.substeps;
     world.check_self_distance(&world.settings)?;
-    world.reserve(capacity);
+    world.has_tear_reserve = world.settings.tearing
+        || count > original_count as usize
+        || world.mesh.triangles.len() > rest_triangles;
+    world.reserve();
     let material = (&world.material, &world.maps);
     require(world.constraints.apply_changes(&world.mesh, &saved.links, material))?;
     (0..world.rest.len() as u32).for_each(|rest| world.refresh_constraints_at(rest));
     world.constraints.update_compliances(&world.material, &world.maps);
     require(world.restore_folds(saved.folds) && world.restore_hardening(saved.hardening))?;
-    world.reserve_for_tears();
+    world.reserve_after_cut();
     world.rebuild_irregular_lists();
     require(saved.anchors.are_valid(count))?;
     world.anchors = saved.anchors.into_owned();
@@ -316,7 +319,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     let events = saved.events.into_owned();
     require(events.len() <= MAX_EVENTS)?;
     world.events = events;
-    world.events.reserve();
+    world.reserve_pins_and_events();
     (world.clock.time, world.clock.tick, world.clock.backlog) =
         (saved.time, saved.tick, saved.backlog);
     world.reserve_reported = saved.reserve_reported;
@@ -335,10 +338,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require(saved.stiffness_step >= 0.0 && saved.stiffness_step <= 1.0)?;
     world.stiffness_step = saved.stiffness_step;
     world.has_no_history = saved.has_no_history;
-    let mut outputs = Outputs::new(&world);
-    outputs.set_uvs(&desc);
-    outputs.update_topology(&world);
-    outputs.update_positions(&world);
+    let outputs = Outputs::new(&world, &desc);
     Ok(Cloth {
         desc,
         world: TrackedWorld::new(world),
@@ -392,7 +392,6 @@ fn restore_pins_and_grabs(
     }
     (world.pins, world.grabs) = (pins, grabs);
     world.grabs.reserve();
-    world.pins.reserve(world.capacity());
     world.reserve_effective_mass();
     Ok(())
 }

@@ -16,7 +16,8 @@ impl Cloth {
     /// The particle under the higher load is split by the plane that is perpendicular to the edge.
     /// If neither particle has triangles on its other side, the edge itself opens, provided that it
     /// starts at a border. The result is `false` if both ends are pinned or grabbed, or if the edge
-    /// is already a border.
+    /// is already a border. The first call allocates the reserve for tears, unless
+    /// [`Settings::tearing`](crate::Settings) did.
     ///
     /// # Errors
     /// [`Error::BadIndex`] if a particle does not exist; [`Error::BadValue`] unless the two are the
@@ -35,6 +36,7 @@ impl Cloth {
         if self.world.is_reserve_used_up() {
             return Err(Error::Full { what: "another torn vertex" });
         }
+        self.reserve_for_tears();
         let torn = with_float_env(|| tear::tear_edge(&mut self.world, particle_a, particle_b));
         if torn {
             self.update_topology();

@@ -79,7 +79,8 @@ impl Seams {
         self.capacity
     }
 
-    /// Reserves for `extra` more particles, in a mesh of at most `triangles` triangles.
+    /// Sets the capacity to that of `extra` more particles, in a mesh of at most `triangles`
+    /// triangles, without allocating it.
     ///
     /// A split gives the new particle a copy of each vertex of the old one at most, so the largest
     /// number of vertices per particle bounds the growth. No corner needs more than one vertex of
@@ -94,10 +95,10 @@ impl Seams {
         let unused = self.particles.len() - used.len();
         let count = self.particles.len();
         self.capacity = (count + most * extra).min(unused + 3 * triangles).max(count);
-        self.reserve();
     }
 
-    /// Allocates up to the capacity. A clone needs this, since cloning drops spare capacity.
+    /// Allocates up to the capacity, for a cloth that can tear. A clone needs this too, since
+    /// cloning drops spare capacity.
     pub fn reserve(&mut self) {
         for list in [&mut self.particles, &mut self.sites, &mut self.corner_counts] {
             list.reserve_total(self.capacity);
@@ -216,7 +217,6 @@ impl Seams {
         if fits {
             self.capacity = fresh.capacity;
             self.count_corners();
-            self.reserve();
         }
         fits
     }

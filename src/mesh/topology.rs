@@ -144,6 +144,13 @@ impl Mesh {
             .filter(|corner| self.across(*corner) == NONE || self.across(*corner) > corner / 3)
     }
 
+    /// Largest number of edges that tears can open until there are `capacity` vertices: each new
+    /// vertex opens up to two, and only inner edges can open.
+    pub fn max_opened_edges(&self, capacity: usize) -> usize {
+        let inner_edges = self.edges().filter(|edge| self.across(*edge) != NONE).count();
+        inner_edges.min(2 * (capacity - self.vertex_count()))
+    }
+
     /// The corner of `vertex` in `triangle`, or `None` if it has none there.
     pub fn corner_in(&self, triangle: u32, vertex: u32) -> Option<Corner> {
         let at = self.triangles[triangle as usize].iter().position(|v| *v == vertex)?;

@@ -266,8 +266,10 @@ impl Constraints {
         let mut dynamic = Links::default();
         dynamic.reserve(opening_capacity);
         let (mut sparse, mut coloring) = (SparseLinks::default(), Coloring::default());
-        sparse.reserve(opening_capacity);
-        coloring.reserve(opening_capacity, mesh.source.capacity());
+        if opening_capacity > 0 {
+            sparse.reserve(opening_capacity);
+            coloring.reserve(opening_capacity, mesh.source.capacity());
+        }
         Self {
             links,
             batches,

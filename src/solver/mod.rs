@@ -23,6 +23,7 @@ pub(crate) mod rebase;
 pub(crate) mod self_collide;
 pub(crate) mod stage;
 pub(crate) mod stretch;
+pub(crate) mod tick_scratch;
 pub(crate) mod topology;
 pub(crate) mod vertex_sums;
 pub(crate) mod world;

@@ -16,13 +16,11 @@
 //! import it.
 
 use crate::geometry::triangle::corner_areas;
-use crate::math::columns::Columns;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::GridFrame;
 use crate::mesh::seams::Seams;
 use crate::mesh::split_edge::CutSite;
-use crate::mesh::split_vertex::OpenedEdge;
 use crate::mesh::{Corner, Mesh, triangle_of};
 use crate::model::constraints::Constraints;
 use crate::model::folds::Folds;
@@ -32,22 +30,12 @@ use crate::model::material::Material;
 use crate::model::pin_order::PinOrder;
 use crate::model::plate_elements::PlateElements;
 use crate::model::tethers::Tethers;
-use crate::solver::bend::bend_scratch::BendScratch;
-use crate::solver::collide::contact_scratch::ContactScratch;
-use crate::solver::integrate::expected_momentum::ExpectedMomentum;
 use crate::solver::integrate::sleep_timer::SleepTimer;
-use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
 use crate::solver::profile::Profile;
 use crate::solver::self_collide::contact_forces::WarmStart;
 use crate::solver::self_collide::particle_pairs::ParticleCollision;
 use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
-use crate::solver::stretch::damping_scratch::DampingScratch;
-use crate::solver::stretch::end_weights::EndWeights;
-use crate::solver::stretch::line_scratch::LineScratch;
-use crate::solver::stretch::rollback_state::RollbackState;
-use crate::solver::topology::piece_labels::PieceLabels;
-use crate::solver::topology::piece_members::PieceGroups;
-use crate::solver::topology::tear_scratch::TearScratch;
+use crate::solver::tick_scratch::TickScratch;
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::Attachments;
 use crate::state::colliders::Colliders;
@@ -161,8 +149,12 @@ pub(crate) struct World {
     pub clock: FrameClock,
     /// Number of pieces: connected sets of triangles. Written by tears and cuts.
     pub pieces: u32,
-    /// Largest number of triangles that the buffers can hold.
+    /// Largest number of particles and of triangles that the cloth may ever have.
+    pub particle_capacity: usize,
     pub triangle_capacity: usize,
+    /// Whether the lists have memory for all particles that tears and cuts may add. Written by
+    /// `cloth::reserve`; always set with `settings.tearing`.
+    pub has_tear_reserve: bool,
     /// Whether an event has reported that the vertex reserve for tears is used up. Set by tears.
     pub reserve_reported: bool,
     /// Guarantees that did not hold after the last tick. Written by the stages that check them.
@@ -201,130 +193,34 @@ pub(crate) struct World {
     pub surface_collision: Option<Box<SurfaceCollision>>,
 }
 
-/// Scratch buffers, allocated once so that no tick allocates.
-///
-/// Columns have one entry per particle, unless their doc says otherwise.
-#[derive(Clone, Debug)]
-pub(crate) struct TickScratch {
-    /// Acceleration of each particle by gravity and air [m/s²]. Written by stage `Forces`, once per
-    /// tick or more often.
-    pub acceleration: Columns,
-    /// Air velocity minus particle velocity [m/s]. Stage `Forces` writes it and reads it at once;
-    /// `momentum` uses it as a buffer for positions [m].
-    pub relative_wind: Columns,
-    /// Predicted displacement of each particle in this substep [m]. Written by stage `Predict`; the
-    /// strain limit sets it to zero at the end of the tick.
-    pub displacement: Columns,
-    /// Predicted position of each particle in this substep [m]. Written by stage `Predict`; at the
-    /// end of the tick the strain limit stores the positions before its corrections here.
-    pub predicted: Columns,
-    /// Velocity of each particle at the start of the tick [m/s]. Written by `strain_limit`; empty
-    /// without a strain limit.
-    pub initial_velocity: Columns,
-    /// Position of the pin to which each particle is tethered [m], if there are several pins.
-    /// Written by `tethers`.
-    pub tether_pins: Columns,
-    /// Mass plus soft-pin term of each particle [kg]; empty without soft pins. Written by
-    /// `kinematic::targets`, for the bending solve.
-    pub effective_mass: Vec<f32>,
-    /// What internal stages moved each particle by in this substep [m]. Written by `momentum`.
-    pub correction: Columns,
-    /// Indices of the particles that anchors moved in this substep. Written by
-    /// `kinematic::anchors`.
-    pub anchor_moved: Vec<u32>,
-    /// Weights of both ends of each link, from inverse masses. Written by
-    /// `stretch::inverse_masses`.
-    pub end_weights: EndWeights,
-    /// Positions [m] as `[x, y, z, 0]`, and inverse masses [1/kg], for kernels that gather
-    /// particles. Written by `mesh_kernel::gather` and the stages up to `mesh_kernel::scatter`.
-    pub interleaved: InterleavedParticles,
-    /// Particles and elimination steps of the line solver. Written by `line_gather` and
-    /// `line_solver`.
-    pub lines: LineScratch,
-    /// Normals, rest directions and linear systems of stage `Bend`, which writes them.
-    pub bend: BendScratch,
-    /// Rest lengths [m] and compliances [m/N] of the links without damping. Written by
-    /// `stretch::damping`.
-    pub damping: DampingScratch,
-    /// Nearby blocks and candidate pairs, contacts, and impulses on the colliders. Written by the
-    /// stages in `collide`.
-    pub contacts: ContactScratch,
-    /// Tear candidates and fans. Written by stage `Tear`.
-    pub tear: TearScratch,
-    /// Positions [m] that the strain limit falls back to. Written by `stretch::rollback`.
-    pub rollback: RollbackState,
-    /// Edges that the current vertex split opened. Written by `topology::tear`.
-    pub opened_edges: Vec<OpenedEdge>,
-    /// Piece of each triangle, now and before the last tear or cut, and the particles of each piece.
-    /// Written by tears and cuts.
-    pub pieces: PieceLabels,
-    /// What the momentum of a free cloth that hits a collider should be at the end of this substep.
-    /// Written by `impact_momentum`.
-    pub expected_momentum: Option<ExpectedMomentum>,
-    /// Whether the cloth touched a collider without moving fast when the last substep ended. Written
-    /// by `piece_momentum`.
-    pub rests_on_collider: bool,
-    /// Pieces that touch each other in this substep. Written by `piece_momentum`.
-    pub piece_groups: PieceGroups,
-    /// Stack of the flood fill that labels the pieces.
-    pub piece_stack: Vec<u32>,
-}
-
-impl TickScratch {
-    /// Allocates buffers for `capacity` particles, of which `count` exist now, `triangles`
-    /// triangles and `max_tears` tears per tick. Bending, lines and damping get theirs later.
-    pub fn new(count: usize, capacity: usize, triangles: usize, max_tears: usize) -> Self {
-        let zero = |list: &mut Columns| (0..count).for_each(|_| list.push(Vec3::ZERO));
-        let mut scratch = Self {
-            acceleration: Columns::with_capacity(capacity),
-            relative_wind: Columns::with_capacity(capacity),
-            displacement: Columns::with_capacity(capacity),
-            predicted: Columns::with_capacity(capacity),
-            initial_velocity: Columns::with_capacity(capacity),
-            tether_pins: Columns::with_capacity(capacity),
-            correction: Columns::with_capacity(capacity),
-            effective_mass: Vec::new(),
-            anchor_moved: Vec::new(),
-            end_weights: EndWeights::default(),
-            interleaved: InterleavedParticles::default(),
-            lines: LineScratch::default(),
-            bend: BendScratch::default(),
-            damping: DampingScratch::default(),
-            contacts: ContactScratch::default(),
-            tear: TearScratch::with_capacity(max_tears),
-            rollback: RollbackState::with_capacity(capacity),
-            opened_edges: Vec::with_capacity(2),
-            pieces: PieceLabels::new(capacity, triangles),
-            expected_momentum: None,
-            rests_on_collider: false,
-            piece_groups: PieceGroups::with_capacity(capacity, triangles),
-            piece_stack: Vec::with_capacity(triangles),
-        };
-        zero(&mut scratch.acceleration);
-        zero(&mut scratch.relative_wind);
-        zero(&mut scratch.displacement);
-        zero(&mut scratch.predicted);
-        scratch
-    }
-
-    /// Appends one zeroed particle to the buffers that have one entry per particle.
-    pub fn push_particle(&mut self) {
-        self.acceleration.push(Vec3::ZERO);
-        self.relative_wind.push(Vec3::ZERO);
-        self.displacement.push(Vec3::ZERO);
-        self.predicted.push(Vec3::ZERO);
-    }
-}
-
 impl World {
-    /// Largest number of particles that the buffers can hold.
+    /// Largest number of particles that the cloth may ever have.
     pub fn capacity(&self) -> usize {
-        self.mesh.source.capacity().min(self.particles.mass.capacity())
+        self.particle_capacity
     }
 
-    /// Largest number of render vertices that the buffers can hold.
+    /// Largest number of render vertices that the cloth may ever have.
     pub fn vertex_capacity(&self) -> usize {
         self.seams.as_ref().map_or(self.capacity(), Seams::capacity)
+    }
+
+    /// Number of particles that the lists have memory for.
+    pub fn allocated_particles(&self) -> usize {
+        if self.has_tear_reserve { self.capacity() } else { self.particles.len() }
+    }
+
+    /// Number of render vertices that the lists have memory for.
+    pub fn allocated_vertices(&self) -> usize {
+        match &self.seams {
+            Some(seams) if !self.has_tear_reserve => seams.particles.len(),
+            Some(seams) => seams.capacity(),
+            None => self.allocated_particles(),
+        }
+    }
+
+    /// Number of triangles that the lists have memory for.
+    pub fn allocated_triangles(&self) -> usize {
+        if self.has_tear_reserve { self.triangle_capacity } else { self.mesh.triangles.len() }
     }
 
     /// Triangles as indices of render vertices.
@@ -454,6 +350,7 @@ impl World {
     /// Labels the pieces of the mesh, counts them, and sorts the particles by piece.
     pub fn label_pieces(&mut self) {
         let (mesh, TickScratch { pieces, piece_stack, .. }) = (&self.mesh, &mut self.scratch);
+        pieces.label.resize(mesh.triangles.len(), 0);
         self.pieces = mesh.label_pieces(&mut pieces.label, piece_stack);
         pieces.outward.clear();
         pieces.members.sort(mesh, &pieces.label, self.pieces as usize, |piece| piece);

@@ -75,6 +75,9 @@ impl Event {
 /// Capacity of the queue. A new event replaces the oldest one when it is full.
 pub(crate) const MAX_EVENTS: usize = 1024;
 
+/// Number of events that the queue of a cloth holds without allocating, before it can tear.
+const FEW_EVENTS: usize = 16;
+
 /// Queue of events in the order in which they happened.
 ///
 /// Order by tick. Within a tick: recoveries; tears, the most overstretched edge first, each
@@ -88,11 +91,12 @@ pub(crate) struct Events {
 }
 
 impl Events {
+    /// Makes an empty queue for the few events of a cloth that cannot tear.
     pub fn new() -> Self {
-        Self { queue: VecDeque::with_capacity(MAX_EVENTS) }
+        Self { queue: VecDeque::with_capacity(FEW_EVENTS) }
     }
 
-    /// Allocates the full capacity.
+    /// Allocates the full capacity, for a cloth that can tear.
     pub fn reserve(&mut self) {
         self.queue.reserve_exact(MAX_EVENTS.saturating_sub(self.queue.len()));
     }

@@ -60,8 +60,8 @@ pub struct Settings {
     /// used. `Particles`: automatic is two thirds of the mean rest length; at most twice that
     /// length is used.
     pub self_distance: f32,
-    /// Enables tearing of overstretched edges, see [`Material::tear_stretch`](crate::Material).
-    /// Default: off.
+    /// Enables tearing of overstretched edges, see [`Material::tear_stretch`](crate::Material), and
+    /// allocates the memory that tears need. Default: off.
     pub tearing: bool,
     /// Maximum number of vertices that tearing splits in one tick, the most overstretched first, at
     /// least 1. Default: 8.

@@ -314,8 +314,8 @@ export interface Wind {
 /** The fields that grids and meshes have in common. */
 export interface ClothDesc {
   /**
-   * Reserve of particles for tears and cuts: how many they may add. Memory for them is allocated at
-   * creation.
+   * Reserve of particles for tears and cuts: how many they may add. Memory for them is allocated
+   * with `tearing`, or by the first tear or cut.
    *
    * @defaultValue as many as the cloth starts with
    */

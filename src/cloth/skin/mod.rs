@@ -151,7 +151,7 @@ impl Skin {
     pub fn new(cloth: &Cloth, desc: &SkinDesc) -> Result<Self> {
         desc.check()?;
         let world = &cloth.world;
-        let capacity = world.capacity();
+        let capacity = world.allocated_particles();
         let mut surface = InterpolatedSurface::with_capacity(capacity);
         let [mut positions, mut normals] =
             [Vec::with_capacity(capacity), Vec::with_capacity(capacity)];
@@ -239,6 +239,7 @@ impl Skin {
                 self.topology_revision = self.topology_revision.wrapping_add(1);
             }
             self.seen = now;
+            self.surface.reserve(world.allocated_particles(), 0);
         }
         Ok(())
     }

@@ -16,7 +16,8 @@
 use crate::math::columns::Columns;
 use crate::math::{TINY, max};
 use crate::solver::particle_stage::access::ParticleAccess;
-use crate::solver::world::{TickScratch, World};
+use crate::solver::tick_scratch::TickScratch;
+use crate::solver::world::World;
 use glam::Vec3;
 
 /// Runs bending, of whose corrections at least `World::bending_share` counts as velocity.

@@ -23,8 +23,9 @@
 
 use crate::math::max;
 use crate::mesh::{Mesh, NONE, next_corner, triangle_of};
+use crate::solver::tick_scratch::TickScratch;
 use crate::solver::topology::piece_labels::PieceLabels;
-use crate::solver::world::{TickScratch, World};
+use crate::solver::world::World;
 use glam::{DVec3, Vec3};
 
 /// Volume of a rest shape, over the power 3/2 of its area, below which it counts as zero: rounding

@@ -68,7 +68,7 @@ pub(crate) fn reset_history(world: &mut World, decay: f32) {
 impl World {
     /// Reserves the buffers of the anchor constraints, if there are any.
     pub fn reserve_anchor_scratch(&mut self) {
-        let capacity = self.capacity();
+        let capacity = self.allocated_particles();
         self.anchors.reserve(capacity);
         if !self.anchors.is_empty() {
             let moved = &mut self.scratch.anchor_moved;

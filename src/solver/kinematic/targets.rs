@@ -120,7 +120,8 @@ impl World {
 
     /// Reserves the buffer of the effective masses, if there are soft pins.
     pub fn reserve_effective_mass(&mut self) {
-        let (capacity, effective_mass) = (self.capacity(), &mut self.scratch.effective_mass);
+        let (capacity, effective_mass) =
+            (self.allocated_particles(), &mut self.scratch.effective_mass);
         if self.pins.has_soft() {
             effective_mass.clear();
             effective_mass.reserve_exact(capacity);

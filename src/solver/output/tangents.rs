@@ -14,6 +14,7 @@
 //! them orthogonal to the normals.
 
 use crate::math::columns::Columns;
+use crate::math::reserve::ReserveTotal;
 use crate::math::simd::{Simd, vectored};
 use crate::solver::vertex_sums::contribution::{
     LaneVector, RowBand, SumInput, TriangleContribution,
@@ -50,6 +51,17 @@ impl Tangents {
             handedness: Vec::with_capacity(capacity),
             is_texture_current: false,
             share: None,
+        }
+    }
+
+    /// Allocates for `capacity` render vertices in all.
+    pub fn reserve(&mut self, capacity: usize) {
+        self.capacity = capacity;
+        self.uvs.reserve(capacity);
+        self.sums.reserve(capacity);
+        self.handedness.reserve_total(capacity);
+        if !self.x.x.is_empty() {
+            self.x.reserve(capacity);
         }
     }
 

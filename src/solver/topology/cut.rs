@@ -104,7 +104,7 @@ pub(crate) fn cut(world: &mut World, plan: &CutPlan) {
     }
     (0..world.rest.len() as u32).for_each(|site| world.refresh_constraints_at(site));
     world.compute_masses();
-    world.reserve_for_tears();
+    world.reserve_after_cut();
     world.rebuild_crack_tips();
     update_pieces(world);
     world.rebuild_tethers();

@@ -11,7 +11,8 @@ use crate::math::reserve::ReserveTotal;
 use crate::mesh::NONE;
 use crate::solver::topology::piece_members::PieceMembers;
 
-/// Piece of each triangle, now and before the last tears, with buffers to compare both.
+/// Piece of each triangle, now and before the last tears, with buffers to compare both. The labels
+/// from before are empty until the cloth can tear.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PieceLabels {
     pub label: Vec<u32>,
@@ -28,31 +29,23 @@ pub(crate) struct PieceLabels {
 }
 
 impl PieceLabels {
-    /// Labels for a mesh of `triangles` triangles in one piece. The lists of its particles are empty
-    /// and have capacity for `particles` particles.
-    pub fn new(particles: usize, triangles: usize) -> Self {
-        Self {
-            label: vec![0; triangles],
-            old_label: vec![0; triangles],
-            size: Vec::with_capacity(triangles),
-            successor: Vec::with_capacity(triangles),
-            outward: Vec::with_capacity(triangles),
-            members: PieceMembers::with_capacity(particles, triangles),
-        }
-    }
-
     /// Appends the label of a new triangle that a cut splits off `triangle`.
     pub fn push_split_of(&mut self, triangle: usize) {
         self.label.push(self.label[triangle]);
         self.old_label.push(NONE);
     }
 
-    /// Reserves capacity for as many pieces as there are triangles.
-    pub fn reserve(&mut self) {
+    /// Allocates for `particles` particles in at most `pieces` pieces.
+    pub fn reserve(&mut self, particles: usize, pieces: usize) {
+        self.outward.reserve_total(pieces);
+        self.members.reserve(particles, pieces);
+    }
+
+    /// Allocates what only tears and cuts need. Each triangle may become a piece.
+    pub fn reserve_for_tears(&mut self) {
         let count = self.label.len();
+        self.old_label.resize(count, NONE);
         self.size.reserve_total(count);
         self.successor.reserve_total(count);
-        self.outward.reserve_total(count);
-        self.members.reserve(count);
     }
 }

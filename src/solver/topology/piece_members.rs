@@ -18,14 +18,10 @@ pub(crate) struct PieceMembers {
 }
 
 impl PieceMembers {
-    /// Allocates buffers for `particles` particles in at most `triangles` pieces.
-    pub fn with_capacity(particles: usize, triangles: usize) -> Self {
-        Self { order: Vec::with_capacity(particles), ends: Vec::with_capacity(triangles) }
-    }
-
-    /// Grows the capacity to `triangles` triangles, each of which may become a piece.
-    pub fn reserve(&mut self, triangles: usize) {
-        self.ends.reserve_total(triangles);
+    /// Grows the capacity to `particles` particles in at most `pieces` pieces.
+    pub fn reserve(&mut self, particles: usize, pieces: usize) {
+        self.order.reserve_total(particles);
+        self.ends.reserve_total(pieces);
     }
 
     /// The particles of each piece.
@@ -70,19 +66,10 @@ pub(crate) struct PieceGroups {
 }
 
 impl PieceGroups {
-    /// Allocates buffers for `particles` particles in at most `triangles` pieces.
-    pub fn with_capacity(particles: usize, triangles: usize) -> Self {
-        Self {
-            parent: Vec::with_capacity(triangles),
-            members: PieceMembers::with_capacity(particles, triangles),
-            has_joined: false,
-        }
-    }
-
-    /// Grows the capacity to `triangles` triangles, each of which may become a piece.
-    pub fn reserve(&mut self, triangles: usize) {
-        self.parent.reserve_total(triangles);
-        self.members.reserve(triangles);
+    /// Grows the capacity to `particles` particles in at most `pieces` pieces.
+    pub fn reserve(&mut self, particles: usize, pieces: usize) {
+        self.parent.reserve_total(pieces);
+        self.members.reserve(particles, pieces);
     }
 
     /// Makes one group of each of `pieces` pieces.

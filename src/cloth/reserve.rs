@@ -1,0 +1,160 @@
+//! Memory of a cloth: allocates every list as large as ticks may make it.
+//!
+//! ```text
+//! cannot tear        lists for the particles, triangles and pieces that exist
+//! can tear           lists for all particles that tears and cuts may add (`extra_particles`)
+//!   with `settings.tearing`, and from the first `tear_edge` or `cut` on
+//! ```
+//! Reads the sizes of `World`; changes capacities and scratch buffers only.
+//! Invariant: after each call that changes a cloth no tick allocates, so a tick never makes a list
+//! longer than it is allocated here.
+
+use crate::cloth::Cloth;
+use crate::math::reserve::ReserveTotal;
+use crate::solver::bend::bend_scratch::BendScratch;
+use crate::solver::stretch::damping_scratch::DampingScratch;
+use crate::solver::stretch::line_scratch::LineScratch;
+use crate::solver::tick_scratch::TickScratch;
+use crate::solver::topology::tear_scratch::TearScratch;
+use crate::solver::world::World;
+
+impl Cloth {
+    /// Allocates the memory for tears and cuts, unless the cloth has it.
+    pub(super) fn reserve_for_tears(&mut self) {
+        if !self.world.has_tear_reserve {
+            self.world.add_tear_reserve();
+            self.outputs.reserve(&self.world);
+        }
+    }
+}
+
+impl World {
+    /// Allocates what a world that was just built does not have yet.
+    pub(crate) fn reserve_fresh(&mut self) {
+        if self.has_tear_reserve {
+            self.reserve_lists();
+        } else {
+            self.tethers.reserve(self.allocated_particles(), 0);
+            self.pin_order.reserve(self.allocated_particles(), self.constraints.links.len());
+        }
+        self.reserve_scratch();
+    }
+
+    /// Allocates the memory for tears and cuts, which the cloth does not have. The state stays.
+    pub(crate) fn add_tear_reserve(&mut self) {
+        self.has_tear_reserve = true;
+        self.reserve_lists();
+        self.scratch.reserve(self.capacity());
+        self.reserve_scratch();
+        self.reserve_effective_mass();
+        self.reserve_anchor_scratch();
+    }
+
+    /// Allocates every list again, after the world was cloned or read from a save: such lists have
+    /// no spare capacity.
+    pub(crate) fn reserve(&mut self) {
+        self.reserve_lists();
+        self.scratch = TickScratch::new(self.particles.len(), self.allocated_particles());
+        self.label_pieces();
+        self.reserve_scratch();
+        self.reserve_effective_mass();
+        self.reserve_anchor_scratch();
+        self.reserve_contacts();
+        self.rebuild_particle_collision();
+        self.rebuild_surface_collision();
+    }
+
+    /// Allocates what tears may still need, after a cut added triangles.
+    pub(crate) fn reserve_after_cut(&mut self) {
+        self.reserve_constraints();
+        self.scratch.piece_stack.reserve_total(self.mesh.triangles.len());
+        self.reserve_pieces();
+    }
+
+    /// Allocates the lists outside of the scratch buffers.
+    fn reserve_lists(&mut self) {
+        let particles = self.allocated_particles();
+        let reserve = |list: &mut Vec<u32>| list.reserve_total(particles);
+        reserve(&mut self.mesh.source);
+        reserve(&mut self.mesh.corner_of);
+        self.particles.reserve(particles);
+        self.mass_scales.reserve(particles);
+        self.maps.reserve(particles);
+        self.crack_tips.reserve_total(particles);
+        self.pin_order.reserve(particles, self.constraints.links.len());
+        if self.has_tear_reserve {
+            self.reserve_pins_and_events();
+            if let Some(seams) = &mut self.seams {
+                seams.reserve();
+            }
+            if let Some(cells) = &mut self.grid_cells {
+                cells.reserve();
+            }
+            if let Some(plates) = &mut self.plate_elements {
+                plates.reserve(particles);
+            }
+        }
+        self.reserve_constraints();
+    }
+
+    /// Allocates for the pins and events of tears, if the cloth can tear: a tear through a pinned
+    /// vertex adds a pin.
+    pub(crate) fn reserve_pins_and_events(&mut self) {
+        if self.has_tear_reserve {
+            self.pins.reserve(self.capacity());
+            self.events.reserve();
+        }
+    }
+
+    /// Allocates links and tethers for all edges that tears may open.
+    fn reserve_constraints(&mut self) {
+        let (particles, triangles) = (self.allocated_particles(), self.mesh.triangles.len());
+        if self.has_tear_reserve {
+            let opened_edges = self.mesh.max_opened_edges(particles);
+            self.constraints.reserve(opened_edges, particles);
+        }
+        self.tethers.reserve(particles, if self.has_tear_reserve { triangles } else { 0 });
+        let hinges = self.constraints.dynamic.capacity();
+        self.scratch.bend.hinge_lambda.reserve_total(hinges);
+    }
+
+    /// Allocates the scratch buffers of the solver stages.
+    fn reserve_scratch(&mut self) {
+        let (particles, triangles) = (self.allocated_particles(), self.mesh.triangles.len());
+        let links = self.constraints.links.len();
+        let has_grid_rows = self.constraints.rows.is_some();
+        let scratch = &mut self.scratch;
+        scratch.end_weights.reserve(particles, links);
+        if !has_grid_rows {
+            scratch.interleaved.reserve(particles);
+        }
+        let steps = self.constraints.chains.blocks.max_steps();
+        scratch.lines = LineScratch::new(steps, particles, has_grid_rows);
+        let hinges = self.constraints.hinges.all.len();
+        scratch.bend = BendScratch::new(self.plate_elements.as_ref(), triangles, hinges, particles);
+        scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
+        let opened_edges = self.mesh.max_opened_edges(particles);
+        scratch.damping = DampingScratch::new(links, opened_edges);
+        if self.has_tear_reserve {
+            scratch.tear =
+                TearScratch::with_capacity(self.settings.max_tears(self.triangle_capacity));
+            scratch.opened_edges.reserve_exact(2);
+            scratch.piece_stack.reserve_total(triangles);
+        }
+        self.reserve_pieces();
+    }
+
+    /// Allocates the lists of pieces. If the cloth can tear, each triangle may become one.
+    fn reserve_pieces(&mut self) {
+        let (particles, triangles) = (self.allocated_particles(), self.mesh.triangles.len());
+        let pieces = if self.has_tear_reserve { triangles } else { self.pieces as usize };
+        let scratch = &mut self.scratch;
+        scratch.pieces.reserve(particles, pieces);
+        scratch.piece_groups.reserve(particles, pieces);
+        if self.has_tear_reserve {
+            scratch.pieces.reserve_for_tears();
+        } else {
+            scratch.piece_stack = Vec::new();
+        }
+    }
+}
