@@ -12,6 +12,7 @@
 //! a slot is never dropped, so its generation is not forgotten.
 
 use crate::error::{Error, Result};
+use crate::math::heap_bytes::HeapBytes;
 use serde::{Deserialize, Serialize};
 
 /// Values addressed by handles: `generation << 16 | slot + 1`. The handle 0 names nothing.
@@ -26,6 +27,13 @@ pub(crate) struct Arena<T> {
 struct Slot<T> {
     generation: u16,
     value: Option<T>,
+}
+
+impl<T> HeapBytes for Arena<T> {
+    /// The memory of the slots, without that of the values.
+    fn heap_bytes(&self) -> usize {
+        size_of::<Slot<T>>() * self.slots.capacity()
+    }
 }
 
 impl<T: Clone> Clone for Arena<T> {

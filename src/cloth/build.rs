@@ -17,6 +17,7 @@ use crate::arena::Arena;
 use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::error::Result;
 use crate::geometry::triangle::corner_areas;
+use crate::math::heap_bytes::HeapBytes;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid;
@@ -65,6 +66,18 @@ use serde::{Deserialize, Serialize};
 pub(crate) enum ClothDesc {
     Grid(GridDesc),
     Mesh(MeshDesc),
+}
+
+impl HeapBytes for ClothDesc {
+    fn heap_bytes(&self) -> usize {
+        match self {
+            Self::Grid(_) => 0,
+            Self::Mesh(MeshDesc { positions, indices, uvs, pinned, .. }) => {
+                let lists = indices.heap_bytes() + pinned.heap_bytes();
+                positions.heap_bytes() + uvs.heap_bytes() + lists
+            }
+        }
+    }
 }
 
 impl ClothDesc {

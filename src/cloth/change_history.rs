@@ -4,6 +4,7 @@
 //! merges the ranges since a given revision.
 //! Invariant: the history ends with the change that led to the current topology revision.
 
+use crate::math::heap_bytes::HeapBytes;
 use core::ops::Range;
 
 /// Number of changes that are kept.
@@ -20,6 +21,12 @@ pub(crate) struct ChangedRanges {
 #[derive(Debug)]
 pub(crate) struct ChangeHistory {
     pub last: Vec<ChangedRanges>,
+}
+
+impl HeapBytes for ChangeHistory {
+    fn heap_bytes(&self) -> usize {
+        size_of::<ChangedRanges>() * self.last.capacity()
+    }
 }
 
 impl ChangeHistory {

@@ -9,6 +9,7 @@
 //! `blend_of_normals` is `None`.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::solver::output::normals;
 use crate::solver::output::tangents::Tangents;
 use crate::solver::world::World;
@@ -28,6 +29,12 @@ pub(crate) struct InterpolatedSurface {
     /// One tangent per vertex; allocated at the first request.
     pub tangents: Option<Box<Tangents>>,
 }
+
+heap_bytes!(
+    InterpolatedSurface {
+        normals, positions, tangents,
+    } plain { particle_capacity, blend_of_normals }
+);
 
 impl InterpolatedSurface {
     /// Reserves the normals of `capacity` particles.
@@ -57,13 +64,6 @@ impl InterpolatedSurface {
     /// Makes an empty surface with room for as many particles.
     pub fn with_same_capacity(&self) -> Self {
         Self::with_capacity(self.particle_capacity)
-    }
-
-    /// Returns the memory of the lists that are allocated on request [bytes].
-    pub fn bytes(&self) -> usize {
-        let position = if self.positions.x.capacity() == 0 { 0 } else { size_of::<[f32; 3]>() };
-        self.particle_capacity * position
-            + self.tangents.as_ref().map_or(0, |tangents| tangents.bytes())
     }
 
     /// Marks normals and tangents as out of date after positions changed.

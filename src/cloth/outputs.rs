@@ -12,6 +12,7 @@ use crate::cloth::build::ClothDesc;
 use crate::cloth::change_history::{ChangedRanges, changed_range};
 use crate::cloth::interpolated_surface::InterpolatedSurface;
 use crate::math::float_env::with_float_env;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::mesh::split_edge::CutSite;
 use crate::solver::output::normals;
@@ -51,6 +52,13 @@ pub(crate) struct Outputs {
     pub indices: Vec<u32>,
 }
 
+heap_bytes!(
+    Outputs {
+        positions, relative_positions, normals, surface, uvs, rest_uvs, rest_sources, sources,
+        frayed, particles, pending, indices,
+    } plain { are_relative_positions_current, are_normals_current }
+);
+
 /// Per-vertex attributes of a new topology, before they replace the current ones. Empty between
 /// changes of a cloth that cannot tear.
 #[derive(Debug, Default)]
@@ -62,6 +70,8 @@ struct PendingAttributes {
     /// Whether each particle is on a border that a tear or cut made.
     frayed_particles: Vec<bool>,
 }
+
+heap_bytes!(PendingAttributes { uvs, sources, frayed, particles, frayed_particles } plain {});
 
 impl PendingAttributes {
     /// Allocates for `particles` particles and `vertices` vertices.
@@ -141,11 +151,6 @@ impl Outputs {
             self.are_relative_positions_current = true;
         }
         &self.relative_positions
-    }
-
-    /// Returns the memory of the relative positions [bytes].
-    pub fn relative_bytes(&self) -> usize {
-        size_of::<Vec3>() * self.relative_positions.capacity()
     }
 
     /// Returns all lists of positions and normals.

@@ -144,6 +144,16 @@ impl World {
         self.reserve_pieces();
     }
 
+    /// Returns about the memory of the colliders and of the buffers for contacts with them [bytes],
+    /// without the shapes. Its factors are measured.
+    pub(crate) fn contact_bytes(&self) -> usize {
+        let (particles, triangles) = (self.capacity(), self.triangle_capacity);
+        match self.colliders.iter().count() {
+            0 => 0,
+            bodies => 500 * particles + 440 * triangles + 20 * bodies * (particles + triangles),
+        }
+    }
+
     /// Allocates the lists of pieces. If the cloth can tear, each triangle may become one.
     fn reserve_pieces(&mut self) {
         let (particles, triangles) = (self.allocated_particles(), self.mesh.triangles.len());

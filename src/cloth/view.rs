@@ -5,8 +5,8 @@
 
 use crate::cloth::Cloth;
 use crate::math::float_env::with_float_env;
+use crate::math::heap_bytes::HeapBytes;
 use crate::mesh::report::MeshReport;
-use crate::model::grid_cells::GridCells;
 use crate::solver::output::stats;
 use crate::solver::stage::Stage;
 use core::ops::Range;
@@ -91,7 +91,8 @@ pub struct Stats {
     pub substeps: u32,
     /// Whether the cloth sleeps, see [`Settings::sleep_speed`](crate::Settings).
     pub asleep: bool,
-    /// Approximate memory use [bytes].
+    /// Memory of the cloth [bytes]: what it has allocated, and itself. Contacts with colliders are
+    /// estimated, and the shapes of colliders not counted.
     pub bytes: u64,
     /// Time of each stage ([`Stage::ALL`](crate::Stage)) in the last call that ran ticks [s]; zeros
     /// without a clock ([`Cloth::set_clock`]).
@@ -259,28 +260,15 @@ impl Cloth {
         self.world.profile.add(Stage::Outputs, start);
     }
 
-    /// Returns the approximate memory use [bytes].
+    /// Returns the memory of the cloth [bytes].
     fn bytes(&self) -> u64 {
-        let world = &self.world;
-        // `Outputs` holds uvs, sources, frayed flags and particles twice: current and pending.
-        let attributes = size_of::<Vec2>() + 2 * size_of::<u32>() + 1;
-        let vertex = size_of::<[Vec3; 2]>() + 2 * attributes;
-        let particle = world.particles.bytes_each();
-        let triangle = size_of::<[u32; 3]>() * 3 + size_of::<[f32; 3]>();
-        let bytes = world.capacity() * particle
-            + world.vertex_capacity() * vertex
-            + world.triangle_capacity * triangle
-            + world.constraints.bytes()
-            + world.maps.bytes()
-            + world.grid_cells.as_ref().map_or(0, GridCells::bytes)
-            + world.plate_elements.as_ref().map_or(0, |plates| plates.bytes())
-            + world.tethers.bytes()
-            + self.outputs.surface.bytes()
-            + self.outputs.relative_bytes()
-            + self.ray_tree.bytes()
-            + world.particle_collision.as_ref().map_or(0, |pairs| pairs.bytes())
-            + world.warm_start.bytes()
-            + world.surface_collision.as_ref().map_or(0, |surface| surface.bytes());
+        let bytes = size_of::<Self>()
+            + self.desc.heap_bytes()
+            + self.world.heap_bytes()
+            + self.world.contact_bytes()
+            + self.outputs.heap_bytes()
+            + self.history.heap_bytes()
+            + self.ray_tree.bytes();
         bytes as u64
     }
 }

@@ -16,6 +16,7 @@
 //! level.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::{Level, MAX_LANES, Scalar, Simd, vectored};
 use glam::Vec3;
 
@@ -58,6 +59,9 @@ pub(crate) struct HashGrid {
     per_length: f32,
 }
 
+heap_bytes!(Neighbourhood { points, x } plain {});
+heap_bytes!(HashGrid { first, points, x, neighbourhood, cell } plain { bits, per_length });
+
 impl HashGrid {
     /// Allocates a grid for at most `capacity` points.
     pub fn new(capacity: usize) -> Self {
@@ -77,13 +81,6 @@ impl HashGrid {
             bits,
             per_length: 1.0,
         }
-    }
-
-    /// Returns the allocated bytes.
-    pub fn bytes(&self) -> usize {
-        let points = self.points.capacity() + self.neighbourhood.points.capacity();
-        let whole = self.first.len() + self.cell.capacity() + points;
-        size_of::<u32>() * whole + self.x.bytes() + self.neighbourhood.x.bytes()
     }
 
     /// Sorts `points` into cells with sides of `side` [m]. There are at most as many as the

@@ -48,12 +48,6 @@ impl Columns {
         }
     }
 
-    /// Returns the allocated bytes.
-    pub fn bytes(&self) -> usize {
-        let columns = [&self.x, &self.y, &self.z];
-        columns.iter().map(|column| size_of::<f32>() * column.capacity()).sum()
-    }
-
     pub fn push(&mut self, v: Vec3) {
         self.x.push(v.x);
         self.y.push(v.y);

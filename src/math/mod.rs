@@ -12,6 +12,7 @@ pub(crate) mod column;
 pub(crate) mod columns;
 pub(crate) mod float_env;
 pub(crate) mod hasher;
+pub(crate) mod heap_bytes;
 pub(crate) mod pack;
 pub(crate) mod reserve;
 pub(crate) mod shared_points;

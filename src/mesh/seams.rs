@@ -15,6 +15,7 @@
 //!
 //! Invariant: `particles[triangles[t][k]]` is the particle at corner k of triangle t.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::math::sort::sort;
 use crate::mesh::split_edge::{CutSite, EdgeSplit};
@@ -42,6 +43,12 @@ pub(crate) struct Seams {
     #[serde(skip)]
     capacity: usize,
 }
+
+heap_bytes!(
+    Seams {
+        triangles, particles, sites, cut_sites, corner_counts,
+    } plain { original_count, capacity }
+);
 
 impl Seams {
     /// Creates seams from triangles over vertices and the particle of each vertex.

@@ -19,6 +19,7 @@
 //! Invariant: an edge has at most two triangles, and the triangles of a vertex form one fan
 //! (2-manifold with borders).
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::sort::sort_groups;
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +51,8 @@ pub(crate) struct Mesh {
     pub original_count: u32,
 }
 
+heap_bytes!(Mesh { triangles, across, corner_of, source, rest_borders } plain { original_count });
+
 /// The triangles around one vertex, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Fan {
@@ -62,6 +65,8 @@ pub(crate) struct Fan {
     /// Whether the last triangle is a neighbour of the first (an inner vertex).
     pub is_closed: bool,
 }
+
+heap_bytes!(Fan { corners, ring } plain { is_closed });
 
 /// The triangle of a corner.
 #[inline(always)]

@@ -22,6 +22,7 @@
 //!
 //! Invariant: M stays invertible, see `MIN_DETERMINANT`.
 
+use crate::math::heap_bytes::HeapBytes;
 use crate::math::max;
 use crate::model::hinge::{CurvatureResponse, Hinge};
 use glam::{Vec2, Vec3};
@@ -54,6 +55,12 @@ struct BendTriangle {
 /// All triangles that have hinges.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BendElements(Vec<BendTriangle>);
+
+impl HeapBytes for BendElements {
+    fn heap_bytes(&self) -> usize {
+        self.0.heap_bytes()
+    }
+}
 
 /// Energy of a triangle divided by ½ D [m²]: Σ own Cᵢ² + 2 Σ between Cᵢ · Cⱼ.
 #[derive(Clone, Copy, Debug)]
@@ -225,11 +232,6 @@ impl BendElements {
             element.stiffness_scale = stiffness_scale;
             element
         }));
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        self.0.len() * size_of::<BendTriangle>()
     }
 }
 

@@ -15,6 +15,7 @@
 //!
 //! Invariant: after `rebuild_stale` the steps contain each active link of all chains once.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::{LANES, LaneArray};
 use crate::mesh::NONE;
 use crate::model::links::Links;
@@ -53,7 +54,7 @@ pub(crate) struct StridedBlock {
 }
 
 /// Up to eight chains that share no particle.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 struct ChainBlock {
     /// First step, and number of steps.
     first_step: usize,
@@ -80,6 +81,12 @@ pub(crate) struct ChainBlocks {
     /// Whether all blocks are strided.
     are_all_strided: bool,
 }
+
+heap_bytes!(
+    ChainBlocks {
+        steps, blocks, links_of_chains, chain_starts, block_of,
+    } plain { is_stale, are_all_strided }
+);
 
 impl ChainBlocks {
     /// Builds blocks from chains. `links` are all links; `can_break` allocates for chains that tear
@@ -202,14 +209,6 @@ impl ChainBlocks {
             }
             block.steps = block.steps.max(count);
         }
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        size_of::<ChainStep>() * self.steps.len()
-            + size_of::<ChainLink>() * self.links_of_chains.len()
-            + size_of::<[u32; LANES + 1]>() * self.chain_starts.len()
-            + size_of::<u32>() * self.block_of.len()
     }
 }
 

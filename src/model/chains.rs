@@ -12,6 +12,7 @@
 //! Invariants: every stretch link is in exactly one chain; a chain visits no vertex twice; chains
 //! of one block share no particle.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::LANES;
 use crate::math::sort::{sort, sort_by};
 use crate::mesh::NONE;
@@ -37,6 +38,8 @@ pub(crate) struct Chains {
     /// Number of links of the longest chain at creation.
     pub longest: usize,
 }
+
+heap_bytes!(Chains { blocks } plain { longest });
 
 impl Chains {
     /// Divides the stretch links into chains. `rest` is the rest position of each vertex [m];

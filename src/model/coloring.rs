@@ -9,6 +9,7 @@
 //! Reads lists of particles per item; writes colours, or groups and an order.
 //!
 //! Invariant: the result depends only on the order of the items.
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use core::ops::Range;
 
@@ -73,17 +74,14 @@ pub(crate) struct Coloring {
     order: Vec<u32>,
 }
 
+heap_bytes!(Coloring { taken, groups, order } plain {});
+
 impl Coloring {
     /// Allocates for `item_count` items and `particles` particles.
     pub fn reserve(&mut self, item_count: usize, particles: usize) {
         self.taken.reserve_total(particles);
         self.groups.reserve_total(item_count);
         self.order.reserve_total(item_count);
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        size_of::<u32>() * (self.taken.capacity() + self.order.capacity()) + self.groups.capacity()
     }
 
     /// Colours items `0..item_count`: each gets the lowest colour that none of its particles has

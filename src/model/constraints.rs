@@ -15,6 +15,7 @@
 //! Invariant: links of one batch share no particle, so the order inside a batch does not change the
 //! result.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::sort::sort_groups;
 use crate::mesh::{Corner, Mesh, NONE, next_corner, prev_corner, triangle_of};
 use crate::model::chains::Chains;
@@ -65,6 +66,13 @@ pub(crate) struct Constraints {
     /// Unit vectors along weft and warp of a grid at rest; `None` for other meshes.
     pub(super) thread_directions: Option<[Vec3; 2]>,
 }
+
+heap_bytes!(
+    Constraints {
+        links, batches, rows, chains, hinges, is_changed, dynamic, sparse, coloring,
+        dynamic_sites, link_of_edge, first_of_site, links_by_site, dynamic_head, dynamic_next,
+    } plain { thread_directions }
+);
 
 /// A link before sorting by colour.
 struct LinkDraft {
@@ -288,21 +296,6 @@ impl Constraints {
             dynamic_next: Vec::with_capacity(opening_capacity),
             thread_directions: None,
         }
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        let bytes_per_link = size_of::<LinkSpec>() + 5 * size_of::<f32>() + size_of::<bool>();
-        let links = self.links.len() + self.dynamic.rest.capacity();
-        links * bytes_per_link
-            + self.rows.as_ref().map_or(0, GridRows::bytes)
-            + self.chains.blocks.bytes()
-            + self.sparse.bytes()
-            + self.coloring.bytes()
-            + self.hinges.bytes()
-            + size_of::<u32>()
-                * (self.links_by_site.len() + self.first_of_site.len() + self.link_of_edge.len())
-            + size_of::<[u32; 8]>() * self.dynamic_next.capacity()
     }
 
     /// Computes the compliances of all links from the material and the painted stretch.

@@ -12,6 +12,7 @@
 //! Invariants: |angle| ≤ `MAX_ANGLE`; `offset` follows from `angle`.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::trig::{asin, sin};
 use crate::math::{max, min};
 use crate::model::hardening::Hardening;
@@ -48,6 +49,12 @@ pub(crate) struct Folds {
     previous_rest: Vec<[f32; 3]>,
     hinge_hardening: Vec<f32>,
 }
+
+heap_bytes!(
+    Folds {
+        angle, offset, hardening, bent, twist_increment, previous_rest, hinge_hardening,
+    } plain { has_any }
+);
 
 impl Folds {
     /// The folds of a flat grid.

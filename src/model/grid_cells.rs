@@ -6,6 +6,7 @@
 //! Invariant: a triangle is in the packed list exactly if one of its bits in `moved_corners` is
 //! set; current after `rebuild_torn`.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::mesh::Mesh;
 use crate::mesh::grid::cell_triangles;
 
@@ -31,6 +32,12 @@ pub(crate) struct GridCells {
     /// First entry of each row of cells in `torn_triangles`, and the end of the last one.
     torn_row_starts: Vec<u32>,
 }
+
+heap_bytes!(
+    GridCells {
+        moved_corners, is_cut, torn_triangles, torn_particles, torn_row_starts,
+    } plain { columns, rows, corner_area }
+);
 
 impl GridCells {
     /// The cells of a grid with `columns` × `rows` particles at `spacing` [m].
@@ -96,14 +103,6 @@ impl GridCells {
     /// Rest area of a triangle that no cut divided [m²].
     pub fn rest_area(&self) -> f32 {
         self.corner_area + 2.0 * self.corner_area + self.corner_area
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        let triangle = size_of::<u32>() + size_of::<[u32; 3]>();
-        2 * self.moved_corners.len()
-            + size_of::<u32>() * self.rows
-            + triangle * self.torn_triangles.capacity()
     }
 
     /// Updates the flags of the cells around a site, after its vertices changed.

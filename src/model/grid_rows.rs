@@ -13,6 +13,7 @@
 //!
 //! Invariant: a link is active exactly if its mask is 1 or it is in the irregular set.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::MAX_LANES;
 use crate::model::link_set::LinkSet;
 use crate::model::links::{LinkBatch, Links};
@@ -66,6 +67,8 @@ pub(crate) struct GridRows {
     /// Row of each link.
     row_of: Vec<u32>,
 }
+
+heap_bytes!(GridRows { rows, mask, irregular, sparse, row_of } plain {});
 
 impl GridRows {
     /// Divides links into rows. `a`, `b` and `rest` describe the links of a fresh grid with
@@ -152,11 +155,6 @@ impl GridRows {
     pub fn reserve(&mut self) {
         self.irregular.reserve(self.mask.len());
         self.sparse.reserve(self.mask.len());
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        12 * self.mask.len() + size_of::<LinkRow>() * self.rows.len() + self.sparse.bytes()
     }
 }
 

@@ -21,6 +21,7 @@
 //!
 //! Invariant: curvatures are finite, not negative and never decrease.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::{max, min};
 use crate::model::material::Material;
 use crate::model::plate_elements::PerKind;
@@ -43,6 +44,8 @@ pub(crate) struct Hardening {
     /// Counter of changes.
     revision: u32,
 }
+
+heap_bytes!(Hardening { curvature } plain { count, has_any, revision });
 
 impl Hardening {
     /// No plastic curvature at `count` places.

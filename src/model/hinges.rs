@@ -11,6 +11,7 @@
 //! Invariant: hinges are sorted by colour (neighbours in the list share no particle, for
 //! pipelining), and each belongs to one bend link.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::sort::sort_groups;
 use crate::mesh::{Corner, Mesh, next_corner, triangle_of};
 use crate::model::bend_elements::BendElements;
@@ -41,6 +42,8 @@ pub(crate) struct Hinges {
     first: usize,
     hinge_of: Vec<u32>,
 }
+
+heap_bytes!(Hinges { all, links, elements, hinge_of } plain { are_bent, revision, scale, first });
 
 impl Hinges {
     /// No hinges, for a grid, which has plate elements.
@@ -118,13 +121,6 @@ impl Hinges {
     ) -> Option<Hinge> {
         let (hinge, ..) = between(mesh, rest, corners(links, link)?)?;
         Some(Hinge { shape: hinge.shape * self.scale, ..hinge })
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        self.all.len() * (size_of::<Hinge>() + size_of::<u32>())
-            + self.hinge_of.len() * size_of::<u32>()
-            + self.elements.bytes()
     }
 }
 

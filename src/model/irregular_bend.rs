@@ -8,6 +8,7 @@
 //!
 //! Invariant: within a coloured group no particle appears twice.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::mesh::Mesh;
 use crate::model::coloring::{ColorGroup, Coloring, MAX_GROUPS};
@@ -30,6 +31,12 @@ pub(crate) struct IrregularBends {
     pub groups: Vec<ColorGroup>,
     coloring: Coloring,
 }
+
+heap_bytes!(
+    IrregularBends {
+        a, middle, b, element, area_fraction, lambda, groups, coloring,
+    } plain {}
+);
 
 impl IrregularBends {
     /// Allocates for `count` bends and `particles` particles.
@@ -73,10 +80,5 @@ impl IrregularBends {
             area_fraction.push(fraction);
         }
         lambda.iter_mut().for_each(|lambda| lambda.resize(a.len(), 0.0));
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        (5 * size_of::<u32>() + 3 * size_of::<f32>()) * self.a.capacity() + self.coloring.bytes()
     }
 }

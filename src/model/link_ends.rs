@@ -1,6 +1,7 @@
 //! Particle indices at one end of all links, with an upper bound, so that kernels check bounds once
 //! per list instead of once per link.
 
+use crate::math::heap_bytes::heap_bytes;
 use core::ops::Deref;
 
 /// A list of particles, read as a slice.
@@ -10,6 +11,8 @@ pub(crate) struct LinkEnds {
     /// Upper bound of all entries, past and present.
     max_particle: u32,
 }
+
+heap_bytes!(LinkEnds { list } plain { max_particle });
 
 impl LinkEnds {
     /// Returns an upper bound of all entries.

@@ -1,6 +1,7 @@
 //! Sorted set of link numbers: links that left their place in a regular layout and are still
 //! active.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use core::ops::Range;
 
@@ -9,6 +10,8 @@ use core::ops::Range;
 pub(crate) struct LinkSet {
     links: Vec<u32>,
 }
+
+heap_bytes!(LinkSet { links } plain {});
 
 impl LinkSet {
     /// Allocates for `count` links in all.

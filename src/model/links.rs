@@ -12,6 +12,7 @@
 //! Invariant: `spec` alone determines `a`, `b` and `active` on a given mesh.
 
 use crate::math::column::Column;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::min;
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::link_ends::LinkEnds;
@@ -97,6 +98,8 @@ pub(crate) struct Links {
     /// Definition.
     pub spec: Vec<LinkSpec>,
 }
+
+heap_bytes!(Links { a, b, rest, compliance, lambda, active, spec } plain {});
 
 impl Links {
     pub fn len(&self) -> usize {

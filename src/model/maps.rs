@@ -10,6 +10,7 @@
 //! Invariant: a map is empty (all factors are 1) or has one factor per particle, each in the valid
 //! range.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::math::{max, min};
 use serde::{Deserialize, Serialize};
@@ -52,6 +53,8 @@ pub(crate) struct Maps {
     /// Counter of changes.
     pub revision: u32,
 }
+
+heap_bytes!(Maps { lists } plain { revision });
 
 impl Maps {
     /// Replaces a map, with room for `capacity` particles; no scales take it away.
@@ -109,11 +112,6 @@ impl Maps {
             .zip(&self.lists)
             .filter(|(_, list)| !list.is_empty())
             .map(|(map, list)| (map, &list[..]))
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        size_of::<f32>() * self.lists.iter().map(Vec::capacity).sum::<usize>()
     }
 
     /// The maps that are set, as bits, and their factors one after the other, for a save.

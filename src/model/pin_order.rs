@@ -5,6 +5,7 @@
 //!
 //! Invariant: current after `rebuild`, which must run whenever the tethers change.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::math::sort::sort_by;
 use crate::model::links::Links;
@@ -17,6 +18,8 @@ pub(crate) struct PinOrder {
     /// Geodesic distance of each particle to the nearest pin [m]; infinite where there is none.
     distance: Vec<f32>,
 }
+
+heap_bytes!(PinOrder { order, distance } plain {});
 
 impl PinOrder {
     /// Allocates for `particles` and `links` in all.

@@ -18,6 +18,7 @@
 //! Invariant: the fraction of an element is 0 unless all its particles are the original ones and
 //! connected.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::mesh::Mesh;
 use crate::mesh::grid::cell_triangles;
 use crate::model::irregular_bend::IrregularBends;
@@ -51,6 +52,12 @@ pub(crate) struct PlateElements {
     /// `area_fraction` at creation.
     created_fraction: PerKind<Vec<f32>>,
 }
+
+heap_bytes!(
+    PlateElements {
+        area_fraction, irregular, irregular_links, middle, created_fraction,
+    } plain { columns, rows, spacing, revision, first }
+);
 
 impl PlateElements {
     /// Creates the elements of a grid with these links.
@@ -160,10 +167,5 @@ impl PlateElements {
     pub fn reserve(&mut self, particles: usize) {
         self.irregular_links.reserve(self.middle.len());
         self.irregular.reserve(self.middle.len(), particles);
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        size_of::<f32>() * (6 * self.count() + 2 * self.middle.len()) + self.irregular.bytes()
     }
 }

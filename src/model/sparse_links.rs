@@ -5,6 +5,7 @@
 //!
 //! Invariant: within a coloured group no particle appears twice.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::model::coloring::{ColorGroup, Coloring, MAX_GROUPS};
 use crate::model::links::{LinkKind, Links};
@@ -27,6 +28,8 @@ pub(crate) struct SparseLinks {
     groups: Vec<ColorGroup>,
 }
 
+heap_bytes!(SparseLinks { a, b, rest, link, w, groups } plain {});
+
 impl SparseLinks {
     /// Allocates for `count` links in all.
     pub fn reserve(&mut self, count: usize) {
@@ -39,11 +42,6 @@ impl SparseLinks {
             list.reserve_exact(additional(list.len()));
         }
         self.groups.reserve_total(MAX_GROUPS);
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        6 * size_of::<u32>() * self.link.capacity()
     }
 
     /// Removes all links.

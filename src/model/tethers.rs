@@ -20,6 +20,7 @@
 //!
 //! Invariant: `length` is infinite exactly if no path leads to a pin.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Fan, Mesh, NONE, triangle_of};
 use glam::Vec3;
@@ -42,14 +43,18 @@ pub(crate) struct TetherSet {
     pub single_pin: Option<u32>,
 }
 
+heap_bytes!(TetherSet { pin, length, via_triangle } plain { single_pin });
+
 /// The tethers of a cloth.
 #[derive(Clone, Debug)]
 pub(crate) struct Tethers {
-    sets: Vec<TetherSet>,
+    sets: [TetherSet; MAX_SEPARATE_PINS],
     used: usize,
     pin_count: usize,
     scratch: TetherScratch,
 }
+
+heap_bytes!(Tethers { sets, scratch } plain { used, pin_count });
 
 /// Scratch for updates after tears.
 #[derive(Clone, Debug, Default)]
@@ -62,16 +67,17 @@ struct TetherScratch {
     affected: Vec<u32>,
 }
 
+heap_bytes!(TetherScratch { fan, invalid, is_affected, affected } plain {});
+
 impl Tethers {
     /// Creates no tethers, allocated for `capacity` particles.
     pub fn with_capacity(capacity: usize) -> Self {
-        let list = || TetherSet {
+        let sets = [(); MAX_SEPARATE_PINS].map(|()| TetherSet {
             pin: Vec::with_capacity(capacity),
             length: Vec::with_capacity(capacity),
             via_triangle: Vec::with_capacity(capacity),
             single_pin: None,
-        };
-        let sets = (0..MAX_SEPARATE_PINS).map(|_| list()).collect();
+        });
         Self { sets, used: 0, pin_count: 0, scratch: TetherScratch::default() }
     }
 
@@ -88,15 +94,6 @@ impl Tethers {
         invalid.reserve_total(capacity);
         is_affected.reserve_total(triangles);
         affected.reserve_total(triangles);
-    }
-
-    /// Allocated bytes.
-    pub fn bytes(&self) -> usize {
-        let of_set = |set: &TetherSet| {
-            4 * (set.pin.capacity() + set.length.capacity() + set.via_triangle.capacity())
-        };
-        let scratch = 4 * self.scratch.invalid.capacity() + 5 * self.scratch.affected.capacity();
-        self.sets.iter().map(of_set).sum::<usize>() + scratch
     }
 
     /// Number of pins when the paths were measured.

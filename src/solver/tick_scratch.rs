@@ -7,6 +7,7 @@
 //! no tick allocates.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::mesh::split_vertex::OpenedEdge;
 use crate::solver::bend::bend_scratch::BendScratch;
 use crate::solver::collide::contact_scratch::ContactScratch;
@@ -89,6 +90,11 @@ pub(crate) struct TickScratch {
     /// Stack of the flood fill that labels the pieces.
     pub piece_stack: Vec<u32>,
 }
+
+heap_bytes!(
+    TickScratch { acceleration, relative_wind, displacement, predicted, initial_velocity, tether_pins, effective_mass, correction, anchor_moved, end_weights, interleaved, lines, bend, damping, tear, rollback, opened_edges, pieces, piece_groups, piece_stack }
+    plain { contacts, expected_momentum, rests_on_collider }
+);
 
 impl TickScratch {
     /// Allocates buffers for `capacity` particles, of which `count` exist now. Bending, lines,

@@ -16,6 +16,7 @@
 //! import it.
 
 use crate::geometry::triangle::corner_areas;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::GridFrame;
@@ -192,6 +193,20 @@ pub(crate) struct World {
     /// Data of surface collision, while `self_collision` is `Surface`. Written by `surface_stages`.
     pub surface_collision: Option<Box<SurfaceCollision>>,
 }
+
+heap_bytes!(
+    World {
+        mesh, seams, constraints, tethers, pin_order, rest, cut_sites, corner_area, grid_cells,
+        plate_elements, folds, crack_tips, particles, mass_scales, pins, attachments, grabs,
+        anchors, sewing, colliders, maps, events, scratch, particle_collision, warm_start,
+        surface_collision,
+    } plain {
+        tether_slack, pin_stretch, is_pin_stretch_current, rest_origin, grid_frame, mean_edge,
+        origin, reference_pose, settings, material, wind, clock, pieces, particle_capacity,
+        triangle_capacity, has_tear_reserve, reserve_reported, violations, substeps,
+        stiffness_step, has_no_history, level, threads, profile, sleep, is_tangled,
+    }
+);
 
 impl World {
     /// Largest number of particles that the cloth may ever have.

@@ -14,6 +14,7 @@
 //!
 //! Invariant: the list is sorted by particle, so that the order of processing comes from the mesh.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -173,6 +174,8 @@ fn any_perpendicular(normal: Vec3) -> Vec3 {
 pub(crate) struct AnchorConstraints {
     list: Vec<AnchorConstraint>,
 }
+
+heap_bytes!(AnchorConstraints { list } plain {});
 
 impl AnchorConstraints {
     /// Allocates for `capacity` anchors in all, if there are any.

@@ -1,5 +1,6 @@
 //! Events: what happened, in a bounded queue that the host reads.
 
+use crate::math::heap_bytes::heap_bytes;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
@@ -89,6 +90,8 @@ const FEW_EVENTS: usize = 16;
 pub(crate) struct Events {
     queue: VecDeque<Event>,
 }
+
+heap_bytes!(Events { queue } plain {});
 
 impl Events {
     /// Makes an empty queue for the few events of a cloth that cannot tear.

@@ -2,6 +2,7 @@
 //!
 //! Invariant: the list is empty (all factors are 1) or has one entry per particle.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use serde::{Deserialize, Serialize};
 
@@ -10,6 +11,8 @@ use serde::{Deserialize, Serialize};
 pub(crate) struct MassScales {
     list: Vec<f32>,
 }
+
+heap_bytes!(MassScales { list } plain {});
 
 impl MassScales {
     /// Allocates for `capacity` particles in all, if there are factors.

@@ -9,6 +9,7 @@
 //! Invariant: every list has one entry per particle. Field order is part of the save format.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::math::{lerp, saturate};
 use glam::Vec3;
@@ -34,6 +35,8 @@ pub(crate) struct Particles {
     /// Inverse mass that the solver uses [1/kg]: 0 while pinned or grabbed.
     pub w: Vec<f32>,
 }
+
+heap_bytes!(Particles { x, displacement, v, v_extrapolated, x_prev_tick, mass, w } plain {});
 
 impl Particles {
     /// Creates particles at rest, allocated for `capacity` particles. Masses are 0 until they are
@@ -74,11 +77,6 @@ impl Particles {
         for list in [&mut self.mass, &mut self.w] {
             list.reserve_total(capacity);
         }
-    }
-
-    /// Bytes per particle.
-    pub fn bytes_each(&self) -> usize {
-        size_of::<f32>() * (5 * 3 + 2)
     }
 
     pub fn len(&self) -> usize {

@@ -5,6 +5,7 @@
 //!
 //! Invariant: the list is sorted by particle, so that the order of processing comes from the mesh.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -66,6 +67,8 @@ impl Pin {
 pub(crate) struct Pins {
     list: Vec<Pin>,
 }
+
+heap_bytes!(Pins { list } plain {});
 
 impl Pins {
     /// Allocates for `capacity` pins in all.

@@ -10,6 +10,7 @@
 //! `refresh_groups`, and have no entries but those of the particles of the pairs.
 
 use crate::error::{Error, Result, check};
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::sort::sort;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -132,6 +133,12 @@ pub(crate) struct Sewing {
     #[serde(skip)]
     pub pulls: Vec<Vec3>,
 }
+
+heap_bytes!(
+    Sewing {
+        pairs, members, ends, closed, welded, next_welded, joined, leaders, sums, pulls,
+    } plain {}
+);
 
 impl Sewing {
     /// All pairs; none without the feature `sewing`.

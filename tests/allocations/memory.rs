@@ -1,8 +1,9 @@
 //! The memory of a cloth, as the allocator counts it.
 
+use crate::common::irregular_mesh;
 use crate::counting_allocator::{allocated_bytes, allocation_count};
 use muslin::glam::Vec3;
-use muslin::{Cloth, GridDesc};
+use muslin::{Cloth, ColliderDesc, GridDesc, SelfCollision, Shape, Wind};
 
 /// Heap memory of a default cloth of side × side particles after its first ticks [bytes]. These
 /// numbers may only fall.
@@ -70,4 +71,61 @@ fn a_cloth_that_may_tear_from_now_on_tears_without_allocating() {
         assert!(cloth.particle_count() > 256, "nothing tore");
     }
     assert_eq!(cloth.state_hash(), reserved.state_hash());
+}
+
+/// Asserts that the statistics of a cloth name the bytes that the allocator gave, up to `tolerance`
+/// of them.
+fn assert_bytes_are_true(name: &str, tolerance: f64, (cloth, bytes): (Box<Cloth>, i64)) {
+    let told = cloth.stats().bytes;
+    let error = told as f64 / bytes as f64 - 1.0;
+    assert!(error.abs() <= tolerance, "{name}: {told} instead of {bytes} bytes");
+}
+
+#[test]
+fn the_bytes_of_the_statistics_are_those_that_the_allocator_gave() {
+    let changes: [(&str, f64, fn(&mut GridDesc)); 5] = [
+        ("default", 0.0, |_| ()),
+        ("tearing", 0.0, |desc| desc.settings.tearing = true),
+        ("particles", 0.0, |desc| desc.settings.self_collision = SelfCollision::Particles),
+        ("surface", 0.03, |desc| desc.settings.self_collision = SelfCollision::Surface),
+        ("bounded", 0.0, |desc| {
+            desc.settings.max_stretch = 0.1;
+            desc.material.stretch_damping = 0.01;
+            desc.material.yield_angle = 0.1;
+        }),
+    ];
+    for (name, tolerance, change) in changes {
+        let mut desc = GridDesc { columns: 16, rows: 16, ..GridDesc::default() };
+        change(&mut desc);
+        let made = measured(|| Cloth::grid(&desc).unwrap());
+        let clone = measured(|| (*made.0).clone());
+        let restored = measured(|| Cloth::restore(&made.0.save()).unwrap());
+        assert_bytes_are_true(name, tolerance, made);
+        assert_bytes_are_true(&format!("{name}, cloned"), tolerance, clone);
+        assert_bytes_are_true(&format!("{name}, restored"), tolerance, restored);
+    }
+    let mesh = measured(|| Cloth::mesh(&irregular_mesh()).unwrap());
+    assert_bytes_are_true("mesh", 0.0, mesh);
+    for count in [1, 3, 10] {
+        let collided = measured(|| {
+            let mut cloth = default_cloth(16);
+            let shape = Shape::Sphere;
+            let ball = ColliderDesc { shape, radius: 0.2, ..ColliderDesc::default() };
+            for _ in 0..count {
+                cloth.add_collider(&ball).unwrap();
+            }
+            cloth
+        });
+        assert_bytes_are_true(&format!("{count} colliders"), 0.1, collided);
+    }
+    let read = measured(|| {
+        let mut cloth = default_cloth(16);
+        cloth.set_wind(Wind { velocity: Vec3::Z, ..Wind::default() }).unwrap();
+        assert_eq!(cloth.relative_positions().len(), 256);
+        cloth.view();
+        cloth.raycast(Vec3::ZERO, Vec3::NEG_Z, 9.0).unwrap();
+        cloth.cut(Vec3::new(0.1, -9.0, -1.0), Vec3::new(0.1, 9.0, -1.0), Vec3::Z * 2.0).unwrap();
+        cloth
+    });
+    assert_bytes_are_true("read and cut", 0.01, read);
 }

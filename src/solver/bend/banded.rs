@@ -12,6 +12,7 @@
 //! replace a right side by the solution.
 //! Invariant: a held particle (w = 0) is not part of its system; its solution is 0.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::{Level, leveled};
 
 /// Columns x, y, z of a vector per particle.
@@ -26,6 +27,8 @@ pub(crate) struct PentadiagonalFactor {
     near: Vec<f32>,
     far: Vec<f32>,
 }
+
+heap_bytes!(PentadiagonalFactor { inverse, near, far } plain {});
 
 /// Particles of a row or a column: `count` of them from `first` on, `step` apart.
 #[derive(Clone, Copy)]

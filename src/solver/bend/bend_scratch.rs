@@ -5,6 +5,7 @@
 //! result whether or not a cache is still valid.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::model::plate_elements::{PerKind, PlateElements};
 use crate::solver::bend::mesh_implicit::MeshBendScratch;
 use crate::solver::bend::plate::PlateScratch;
@@ -22,6 +23,8 @@ pub(crate) struct BendScratch {
     /// Multiplier of each dynamic link that is a hinge [kg m].
     pub hinge_lambda: Vec<Vec3>,
 }
+
+heap_bytes!(BendScratch { plates, normal, rest_direction, mesh, hinge_lambda } plain {});
 
 impl BendScratch {
     /// Allocates the buffers of a grid with these `plates`, or of a mesh with these numbers of

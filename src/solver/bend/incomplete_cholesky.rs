@@ -13,6 +13,7 @@
 //! Invariant: a pivot is at least the mass, as in the exact factorisation, so P is positive
 //! definite. Sums have a fixed order, so the bits are the same on every platform.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::sort::{sort, sort_measured};
 use crate::math::{max, min};
 use crate::solver::bend::stiffness_matrix::{Entry, StiffnessMatrix};
@@ -69,6 +70,12 @@ pub(crate) struct IncompleteCholesky {
     /// Entries of the current row by ascending size: negative size, column, 0.
     candidates: Vec<(f64, u32, u32)>,
 }
+
+heap_bytes!(
+    IncompleteCholesky {
+        ends, entries, inverse_pivot, rows, columns, candidates,
+    } plain { error }
+);
 
 impl IncompleteCholesky {
     /// Allocates the factors of a matrix with at most `capacity` rows.

@@ -9,6 +9,7 @@
 //! Reads element weights, masses and inverse masses; writes the factors.
 //! Invariant: the factors belong to the stored stiffness and shift; a stiffness of −1 marks none.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::model::plate_elements::{PerKind, PlateElements};
 use crate::solver::bend::banded::{GridLine, PentadiagonalFactor};
 
@@ -20,6 +21,8 @@ pub(crate) struct LineFactors {
     pub weft: PentadiagonalFactor,
     pub warp: PentadiagonalFactor,
 }
+
+heap_bytes!(LineFactors { weft, warp } plain { stiffness, shift });
 
 impl LineFactors {
     /// Allocates factors for `count` particles; no stiffness is factored yet.

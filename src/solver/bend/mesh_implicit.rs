@@ -16,6 +16,7 @@
 //! particles change. Dot products sum in a fixed order, so the bits are the same on every platform.
 
 use crate::math::TINY;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::sort::sort_by;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};
 use crate::model::bend_scale::{BendScale, BendScaleKey};
@@ -83,6 +84,13 @@ pub(crate) struct MeshBendScratch {
     direction: Vec<Vec4>,
     product: Vec<Vec4>,
 }
+
+heap_bytes!(
+    MeshBendScratch {
+        elements, stiffness, factors, area, order, rank, rest_force, coupled_force, w, mass, x,
+        sums, total, change, residual, direction, product,
+    } plain { revision, scale_key, assembled_stiffness }
+);
 
 impl MeshBendScratch {
     /// Allocates buffers for these numbers of triangles and hinges, and at most `capacity`

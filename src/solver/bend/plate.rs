@@ -25,6 +25,7 @@
 //! Invariant: factors and bound are recomputed when pins, masses, elements or stiffness change.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::Level;
 use crate::math::{max, same_bits};
 use crate::model::bend_scale::{BendScale, BendScaleKey};
@@ -69,6 +70,12 @@ pub(crate) struct PlateScratch {
     /// Key of the scales for which the weights were computed.
     scale_key: BendScaleKey,
 }
+
+heap_bytes!(
+    PlateScratch {
+        weight, curve, shifted, force, total, factors, twist, w, mass,
+    } plain { bound, revision, scale_key }
+);
 
 /// Parameters of one solve.
 #[derive(Clone, Copy, Debug)]

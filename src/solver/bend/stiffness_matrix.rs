@@ -11,6 +11,7 @@
 //! Invariant: forces depend on differences of positions and come in opposite pairs, so they do not
 //! depend on where the mesh is, and they conserve linear momentum.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::sort::sort_by;
 use crate::model::bend_elements::{PAIRS, TriangleStiffness};
 use crate::model::hinge::Hinge;
@@ -47,6 +48,8 @@ pub(crate) struct StiffnessMatrix {
     /// Diagonal entries [kg].
     diagonal: Vec<f32>,
 }
+
+heap_bytes!(StiffnessMatrix { rows, counts, overflow, diagonal } plain {});
 
 impl StiffnessMatrix {
     /// Allocates a matrix for `capacity` particles.

@@ -16,6 +16,7 @@
 //! continues with them.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::{Level, leveled};
 use crate::model::plate_elements::PlateElements;
 use crate::solver::bend::banded::VectorColumns;
@@ -42,12 +43,20 @@ pub(crate) struct Twist {
     change: VectorColumns,
 }
 
+heap_bytes!(
+    Twist {
+        lambda, compliance, rows, columns, start, start_twist, rest, change,
+    } plain {}
+);
+
 /// L D Lᵀ factors of tridiagonal systems.
 #[derive(Clone, Debug, Default)]
 struct TridiagonalFactor {
     inverse: Vec<f32>,
     near: Vec<f32>,
 }
+
+heap_bytes!(TridiagonalFactor { inverse, near } plain {});
 
 /// A strip of `count` cells: first corner of the first cell, and index offsets along and across.
 #[derive(Clone, Copy)]

@@ -14,6 +14,7 @@
 //! them orthogonal to the normals.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::math::simd::{Simd, vectored};
 use crate::solver::vertex_sums::contribution::{
@@ -40,6 +41,8 @@ pub(crate) struct Tangents {
     share: Option<f32>,
 }
 
+heap_bytes!(Tangents { uvs, x, sums, handedness } plain { capacity, is_texture_current, share });
+
 impl Tangents {
     /// Allocates buffers for `capacity` render vertices.
     pub fn with_capacity(capacity: usize) -> Self {
@@ -63,12 +66,6 @@ impl Tangents {
         if !self.x.x.is_empty() {
             self.x.reserve(capacity);
         }
-    }
-
-    /// Size of the buffers [bytes].
-    pub fn bytes(&self) -> usize {
-        let of_seams = if self.x.x.capacity() == 0 { 0 } else { size_of::<[f32; 3]>() };
-        self.capacity * (size_of::<[f32; 7]>() + of_seams)
     }
 
     /// Marks the sums as outdated, after positions changed.

@@ -4,6 +4,7 @@
 //! Reads and writes its own list; `surface::warm_start` says what it is for.
 //! Invariant: each force pushes (`normal > 0`) and is finite.
 
+use crate::math::heap_bytes::HeapBytes;
 use crate::math::reserve::ReserveTotal;
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -33,6 +34,12 @@ impl ContactForce {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct WarmStart(pub(super) Vec<ContactForce>);
 
+impl HeapBytes for WarmStart {
+    fn heap_bytes(&self) -> usize {
+        self.0.heap_bytes()
+    }
+}
+
 impl WarmStart {
     /// Reserves memory for the forces of a cloth of `particles` particles.
     pub fn reserve(&mut self, particles: usize) {
@@ -59,11 +66,6 @@ impl WarmStart {
 
     pub fn iter(&self) -> impl Iterator<Item = &ContactForce> {
         self.0.iter()
-    }
-
-    /// Heap memory [bytes].
-    pub fn bytes(&self) -> usize {
-        size_of::<ContactForce>() * self.0.capacity()
     }
 
     /// Whether all forces are valid for a cloth of `particles` particles.

@@ -6,6 +6,8 @@
 use crate::solver::world::World;
 
 pub(crate) mod surface_collision {
+    use crate::math::heap_bytes::HeapBytes;
+
     #[derive(Clone, Debug)]
     pub(crate) enum SurfaceCollision {}
 
@@ -21,8 +23,10 @@ pub(crate) mod surface_collision {
         pub fn has_contacts(&self) -> bool {
             match *self {}
         }
+    }
 
-        pub fn bytes(&self) -> usize {
+    impl HeapBytes for SurfaceCollision {
+        fn heap_bytes(&self) -> usize {
             match *self {}
         }
     }

@@ -16,6 +16,7 @@
 //! does not change the result.
 
 use crate::geometry::hash_grid::HashGrid;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::Level;
 use crate::mesh::Mesh;
 use crate::solver::self_collide::connected_pieces::piece_of_sites;
@@ -79,6 +80,11 @@ pub(crate) struct PairListInput<'a> {
     pub sewing: &'a Sewing,
 }
 
+heap_bytes!(
+    ParticleCollision { grid, pairs, touching, listed_at, firsts, pieces }
+    plain { distance, neighbour_distance, margin, full_margin, passes }
+);
+
 impl ParticleCollision {
     /// Allocates for a cloth that may grow to `capacity` particles. `distance` is the largest
     /// distance that particles keep, `mean_edge` the mean rest length [m].
@@ -101,15 +107,6 @@ impl ParticleCollision {
             full_margin,
             passes: 0,
         }
-    }
-
-    /// Heap memory [bytes].
-    pub fn bytes(&self) -> usize {
-        let pairs = self.pairs.capacity() + self.touching.capacity();
-        self.grid.bytes()
-            + size_of::<[u32; 2]>() * pairs
-            + size_of::<Vec3>() * self.listed_at.capacity()
-            + size_of::<u32>() * (self.firsts.capacity() + self.pieces.capacity())
     }
 
     /// Makes the next pass rebuild the list, after positions moved to another origin.

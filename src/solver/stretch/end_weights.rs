@@ -11,6 +11,7 @@
 //! Invariant: `ends` and `is_even` have one entry per link of `constraints.links`.
 
 use crate::math::column::Column;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::math::same_bits;
 use crate::model::links::Links;
@@ -29,6 +30,8 @@ pub(crate) struct EndWeights {
     /// Whether both ends of each link have the same weight, and it is not 0.
     pub is_even: Vec<bool>,
 }
+
+heap_bytes!(EndWeights { w, ends, is_even } plain { rigid });
 
 impl EndWeights {
     /// Grows the capacity to `particles` particles and `links` links in total.

@@ -5,6 +5,7 @@
 //! a block without a link use it.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::solver::stretch::line_step::LineStep;
 
 /// Gathered particles, and the steps of the block that is solved.
@@ -20,6 +21,8 @@ pub(crate) struct LineScratch {
     /// The steps of one block, after the sentinel.
     pub steps: Vec<LineStep>,
 }
+
+heap_bytes!(LineScratch { points, start_points, start_columns, steps } plain {});
 
 impl LineScratch {
     /// Allocates buffers for blocks of at most `steps` steps over `particles` particles, and

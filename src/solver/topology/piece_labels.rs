@@ -7,6 +7,7 @@
 //! Data only; `World::label_pieces` and `topology` write it.
 //! Invariant: `label` has one entry per triangle, and `members` belong to these labels.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::mesh::NONE;
 use crate::solver::topology::piece_members::PieceMembers;
@@ -27,6 +28,8 @@ pub(crate) struct PieceLabels {
     /// The particles of each piece.
     pub members: PieceMembers,
 }
+
+heap_bytes!(PieceLabels { label, old_label, size, successor, outward, members } plain {});
 
 impl PieceLabels {
     /// Appends the label of a new triangle that a cut splits off `triangle`.

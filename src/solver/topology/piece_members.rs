@@ -6,6 +6,7 @@
 //! Invariant: has capacity for all particles and pieces that tears may still make, so that no tick
 //! allocates.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Mesh, NONE, triangle_of};
 
@@ -16,6 +17,8 @@ pub(crate) struct PieceMembers {
     /// Where the list of each piece ends in `order`.
     ends: Vec<u32>,
 }
+
+heap_bytes!(PieceMembers { order, ends } plain {});
 
 impl PieceMembers {
     /// Grows the capacity to `particles` particles in at most `pieces` pieces.
@@ -64,6 +67,8 @@ pub(crate) struct PieceGroups {
     /// Whether any group has several pieces.
     pub has_joined: bool,
 }
+
+heap_bytes!(PieceGroups { parent, members } plain { has_joined });
 
 impl PieceGroups {
     /// Grows the capacity to `particles` particles in at most `pieces` pieces.

@@ -3,6 +3,7 @@
 //! Data only, allocated before the first tick. `tear` fills them anew in each call; nothing in them
 //! is state.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::mesh::Fan;
 
@@ -24,6 +25,12 @@ pub(crate) struct TearScratch {
     /// Vertices that tears of this tick changed.
     pub touched: Vec<u32>,
 }
+
+heap_bytes!(
+    TearScratch {
+        candidates, fan, far_fans, part, mass_fan, goes_to_new, touched,
+    } plain {}
+);
 
 /// A link whose stretch exceeds its tear limit.
 #[derive(Clone, Copy, Debug)]

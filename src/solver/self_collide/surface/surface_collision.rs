@@ -10,6 +10,7 @@
 //!
 //! [`WarmStart`]: crate::solver::self_collide::contact_forces::WarmStart
 
+use crate::math::heap_bytes::HeapBytes;
 use crate::math::wide4::Float4;
 use crate::mesh::Mesh;
 use crate::solver::self_collide::connected_pieces::piece_of_sites;
@@ -114,9 +115,10 @@ impl SurfaceCollision {
     pub fn invalidate(&mut self) {
         self.tick_bounds.is_valid = false;
     }
+}
 
-    /// Heap memory [bytes].
-    pub fn bytes(&self) -> usize {
+impl HeapBytes for SurfaceCollision {
+    fn heap_bytes(&self) -> usize {
         let words = self.open.capacity()
             + self.pieces.capacity()
             + self.leaders.capacity()
