@@ -83,7 +83,8 @@ fn assert_bytes_are_true(name: &str, tolerance: f64, (cloth, bytes): (Box<Cloth>
 
 #[test]
 fn the_bytes_of_the_statistics_are_those_that_the_allocator_gave() {
-    let changes: [(&str, f64, fn(&mut GridDesc)); 5] = [
+    type Change = fn(&mut GridDesc);
+    let changes: [(&str, f64, Change); 5] = [
         ("default", 0.0, |_| ()),
         ("tearing", 0.0, |desc| desc.settings.tearing = true),
         ("particles", 0.0, |desc| desc.settings.self_collision = SelfCollision::Particles),
