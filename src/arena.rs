@@ -8,12 +8,16 @@
 //!
 //! Slots are made when they are first needed, so iteration costs nothing for those that never were.
 //!
-//! Invariants: `insert` never allocates, because the memory of all slots is reserved from the start;
-//! a slot is never dropped, so its generation is not forgotten.
+//! Invariants: only `insert` allocates, which no tick calls; a slot is never dropped, so its
+//! generation is not forgotten.
 
 use crate::error::{Error, Result};
 use crate::math::heap_bytes::HeapBytes;
+use crate::math::reserve::ReserveTotal;
 use serde::{Deserialize, Serialize};
+
+/// Number of slots that an empty arena has memory for.
+const FEW_SLOTS: usize = 4;
 
 /// Values addressed by handles: `generation << 16 | slot + 1`. The handle 0 names nothing.
 #[derive(Debug, Serialize, Deserialize)]
@@ -47,12 +51,12 @@ impl<T: Clone> Clone for Arena<T> {
 impl<T> Arena<T> {
     /// Makes an empty arena for at most `capacity` values.
     pub fn with_capacity(capacity: u16) -> Self {
-        Self { slots: Vec::with_capacity(capacity.into()), capacity }
+        Self { slots: Vec::with_capacity(FEW_SLOTS.min(capacity.into())), capacity }
     }
 
-    /// Reserves the memory of all slots, for an arena that was read from a save.
+    /// Allocates the first slots, for an arena that was read from a save.
     pub fn reserve(&mut self) {
-        self.slots.reserve_exact(usize::from(self.capacity).saturating_sub(self.slots.len()));
+        self.slots.reserve_total(FEW_SLOTS.min(self.capacity.into()));
     }
 
     /// Stores `value` in the lowest free slot and returns its handle.

@@ -236,20 +236,19 @@ fn build_world(
     settings: &Settings,
 ) -> World {
     let RestModel { mesh, mut constraints, rest, frame, areas, cells, plates } = rest_model;
-    constraints.chains = Chains::new(&constraints.links, &rest, capacity > rest.len());
     let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
     let has_tear_reserve = settings.tearing;
+    constraints.chains = Chains::new(&constraints.links, &rest, has_tear_reserve);
     let allocated = if has_tear_reserve { capacity } else { rest.len() };
-    let mut folds = match &plates {
+    let folds = match &plates {
         Some(plates) => Folds::of_plates(plates),
         None => Folds::of_hinges(&constraints.hinges),
     };
-    folds.reserve_hardening(material);
     let mut world = World {
         mean_edge: mean_edge(&mesh, &rest),
         particles: Particles::at_rest(&rest, allocated),
         mass_scales: MassScales::default(),
-        tethers: Tethers::with_capacity(allocated),
+        tethers: Tethers::default(),
         scratch: TickScratch::new(rest.len(), allocated),
         pins: Pins::default(),
         attachments: Arena::with_capacity(MAX_ATTACHMENTS),
@@ -300,11 +299,11 @@ fn build_world(
         surface_collision: None,
     };
     world.label_pieces();
-    world.reserve_fresh();
     for particle in pinned {
         let x = world.rest[particle as usize];
         world.pins.insert(particle, x, x);
     }
+    world.reserve_fresh();
     world.rebuild_crack_tips();
     world.compute_masses();
     world.constraints.update_compliances(material, &world.maps);

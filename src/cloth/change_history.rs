@@ -5,6 +5,7 @@
 //! Invariant: the history ends with the change that led to the current topology revision.
 
 use crate::math::heap_bytes::HeapBytes;
+use crate::math::reserve::ReserveTotal;
 use core::ops::Range;
 
 /// Number of changes that are kept.
@@ -30,8 +31,14 @@ impl HeapBytes for ChangeHistory {
 }
 
 impl ChangeHistory {
-    pub fn new() -> Self {
-        Self { last: Vec::with_capacity(CAPACITY) }
+    /// Makes an empty history, allocated for a cloth that can tear.
+    pub fn new(can_tear: bool) -> Self {
+        Self { last: Vec::with_capacity(if can_tear { CAPACITY } else { 0 }) }
+    }
+
+    /// Allocates the full capacity.
+    pub fn reserve(&mut self) {
+        self.last.reserve_total(CAPACITY);
     }
 
     /// Appends a change; drops the oldest one if the history is full.
@@ -44,9 +51,9 @@ impl ChangeHistory {
 }
 
 impl Clone for ChangeHistory {
-    /// Clones the content and reserves the full capacity again.
+    /// Clones the content and allocates the full capacity again, if this history has it.
     fn clone(&self) -> Self {
-        let mut copy = Self::new();
+        let mut copy = Self::new(self.last.capacity() >= CAPACITY);
         copy.last.extend_from_slice(&self.last);
         copy
     }

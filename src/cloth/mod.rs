@@ -219,6 +219,7 @@ impl Cloth {
             world.rebuild_surface_collision();
         });
         let outputs = Outputs::new(&world, &desc);
+        let history = ChangeHistory::new(world.has_tear_reserve);
         Ok(Self {
             desc,
             world: TrackedWorld::new(world),
@@ -227,7 +228,7 @@ impl Cloth {
             pins_changed: false,
             topology_revision: 1,
             state_revision: 1,
-            history: ChangeHistory::new(),
+            history,
             ray_tree: RayTree::default(),
         })
     }
@@ -255,7 +256,6 @@ impl Cloth {
         fresh.material = self.world.material.clone();
         core::mem::swap(&mut fresh.maps, &mut self.world.maps);
         fresh.maps.truncate(fresh.particles.len());
-        fresh.folds.reserve_hardening(&fresh.material);
         fresh.wind = self.world.wind.clone();
         fresh.profile.set_clock(self.world.profile.clock());
         fresh.threads = self.world.threads;
@@ -269,6 +269,7 @@ impl Cloth {
             fresh.add_tear_reserve();
         }
         fresh.scratch.tear.reserve(fresh.settings.max_tears(fresh.triangle_capacity));
+        fresh.reserve_for_parameters();
         let world = &mut *self.world;
         *world = fresh;
         world.reserve_contacts();

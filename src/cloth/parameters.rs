@@ -45,6 +45,7 @@ impl Cloth {
         if world.has_tear_reserve {
             world.scratch.tear.reserve(world.settings.max_tears(world.triangle_capacity));
         }
+        world.reserve_for_parameters();
         if was_unlimited {
             world.rebuild_pin_order();
         }
@@ -102,7 +103,7 @@ impl Cloth {
         let changes_density = material.density != world.material.density;
         world.scratch.contacts.nearby.invalidate();
         world.material = material;
-        world.folds.reserve_hardening(&world.material);
+        world.reserve_for_parameters();
         with_float_env(|| {
             world.constraints.update_compliances(&world.material, &world.maps);
             if changes_density {

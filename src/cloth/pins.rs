@@ -141,5 +141,6 @@ impl Cloth {
     pub(super) fn mark_pins_changed(&mut self) {
         self.pins_changed = true;
         self.world.tether_slack = f32::INFINITY;
+        self.world.reserve_tethers();
     }
 }

@@ -11,8 +11,8 @@
 
 use crate::cloth::Cloth;
 use crate::math::reserve::ReserveTotal;
+use crate::model::tethers::Tethers;
 use crate::solver::bend::bend_scratch::BendScratch;
-use crate::solver::stretch::damping_scratch::DampingScratch;
 use crate::solver::stretch::line_scratch::LineScratch;
 use crate::solver::tick_scratch::TickScratch;
 use crate::solver::topology::tear_scratch::TearScratch;
@@ -24,6 +24,7 @@ impl Cloth {
         if !self.world.has_tear_reserve {
             self.world.add_tear_reserve();
             self.outputs.reserve(&self.world);
+            self.history.reserve();
         }
     }
 }
@@ -34,8 +35,7 @@ impl World {
         if self.has_tear_reserve {
             self.reserve_lists();
         } else {
-            self.tethers.reserve(self.allocated_particles(), 0);
-            self.pin_order.reserve(self.allocated_particles(), self.constraints.links.len());
+            self.reserve_tethers();
         }
         self.reserve_scratch();
     }
@@ -81,7 +81,6 @@ impl World {
         self.mass_scales.reserve(particles);
         self.maps.reserve(particles);
         self.crack_tips.reserve_total(particles);
-        self.pin_order.reserve(particles, self.constraints.links.len());
         if self.has_tear_reserve {
             self.reserve_pins_and_events();
             if let Some(seams) = &mut self.seams {
@@ -112,8 +111,9 @@ impl World {
         if self.has_tear_reserve {
             let opened_edges = self.mesh.max_opened_edges(particles);
             self.constraints.reserve(opened_edges, particles);
+            self.tethers.reserve_for_tears(particles, triangles);
         }
-        self.tethers.reserve(particles, if self.has_tear_reserve { triangles } else { 0 });
+        self.reserve_tethers();
         let hinges = self.constraints.dynamic.capacity();
         self.scratch.bend.hinge_lambda.reserve_total(hinges);
     }
@@ -133,8 +133,6 @@ impl World {
         let hinges = self.constraints.hinges.all.len();
         scratch.bend = BendScratch::new(self.plate_elements.as_ref(), triangles, hinges, particles);
         scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
-        let opened_edges = self.mesh.max_opened_edges(particles);
-        scratch.damping = DampingScratch::new(links, opened_edges);
         if self.has_tear_reserve {
             scratch.tear =
                 TearScratch::with_capacity(self.settings.max_tears(self.triangle_capacity));
@@ -142,6 +140,44 @@ impl World {
             scratch.piece_stack.reserve_total(triangles);
         }
         self.reserve_pieces();
+        self.reserve_for_parameters();
+    }
+
+    /// Allocates what only some settings and materials need: the strain limit, damping of stretch,
+    /// and folds.
+    pub(crate) fn reserve_for_parameters(&mut self) {
+        let (particles, links) = (self.allocated_particles(), self.constraints.links.len());
+        if self.settings.max_stretch > 0.0 {
+            self.pin_order.reserve(particles, links);
+            self.scratch.initial_velocity.reserve(particles);
+            self.scratch.rollback.positions.reserve(particles);
+        }
+        if self.material.stretch_damping > 0.0 {
+            let opened_edges = self.mesh.max_opened_edges(particles);
+            self.scratch.damping.reserve(links, self.constraints.dynamic.len() + opened_edges);
+        }
+        if self.material.yield_angle > 0.0 || self.folds.is_allocated() {
+            self.reserve_folds();
+        }
+        self.folds.reserve_hardening(&self.material);
+    }
+
+    /// Allocates rest angles of all bending elements, and what bending needs with them.
+    pub(crate) fn reserve_folds(&mut self) {
+        self.folds.reserve();
+        if let Some(plates) = &self.plate_elements {
+            self.scratch.bend.reserve_folds(plates.count());
+        }
+    }
+
+    /// Allocates tethers to the pins that there are, and to those that tears may add.
+    pub(crate) fn reserve_tethers(&mut self) {
+        let pins = self.pins.hard_particles().count();
+        let sets = if self.has_tear_reserve { None } else { Some(pins) };
+        self.tethers.reserve(sets, self.allocated_particles());
+        if sets.is_none_or(Tethers::has_common_set) {
+            self.scratch.tether_pins.reserve(self.allocated_particles());
+        }
     }
 
     /// Returns about the memory of the colliders and of the buffers for contacts with them [bytes],

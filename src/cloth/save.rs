@@ -310,7 +310,6 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     restore_pins_and_grabs(&mut world, saved.pins.into_owned(), saved.grabs.into_owned(), bad)?;
     let mut colliders = saved.colliders.into_owned();
     require(colliders.is_within(MAX_COLLIDERS))?;
-    colliders.reserve();
     for body in colliders.iter_mut() {
         body.restore()?;
     }
@@ -339,6 +338,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     world.stiffness_step = saved.stiffness_step;
     world.has_no_history = saved.has_no_history;
     let outputs = Outputs::new(&world, &desc);
+    let history = ChangeHistory::new(world.has_tear_reserve);
     Ok(Cloth {
         desc,
         world: TrackedWorld::new(world),
@@ -347,7 +347,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
         pins_changed: false,
         topology_revision: saved.topology_revision,
         state_revision: saved.state_revision,
-        history: ChangeHistory::new(),
+        history,
         ray_tree: RayTree::default(),
     })
 }
@@ -366,9 +366,6 @@ fn restore_attachments(world: &mut World, attachments: Attachments) -> bool {
     let are_sound = attachments.iter().all(is_sound);
     let fits = are_sound && attachments.is_within(MAX_ATTACHMENTS);
     world.attachments = attachments;
-    if fits {
-        world.attachments.reserve();
-    }
     fits
 }
 

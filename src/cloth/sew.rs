@@ -10,7 +10,7 @@ use crate::math::columns::Columns;
 use crate::math::float_env::with_float_env;
 use crate::mesh::NONE;
 use crate::solver::world::World;
-use crate::state::sewing::{SewDesc, SewState, SewnPair};
+use crate::state::sewing::{SewDesc, SewKind, SewState, SewnPair};
 
 #[cfg(feature = "sewing")]
 impl Cloth {
@@ -79,6 +79,10 @@ impl Cloth {
         });
         world.sewing.pairs.extend(sewn);
         world.sewing.rebuild();
+        if kind == SewKind::Stitch {
+            // Each stitch may tear.
+            world.events.reserve();
+        }
         world.forget_collision_pairs();
         world.wake();
         Ok(())

@@ -36,11 +36,6 @@ impl Column {
         Self { lines: Vec::with_capacity(capacity.div_ceil(LINE_LEN)), len: 0 }
     }
 
-    /// Makes a list of `count` zeros.
-    pub fn zeros(count: usize) -> Self {
-        Self { lines: vec![CacheLine([0.0; LINE_LEN]); count.div_ceil(LINE_LEN)], len: count }
-    }
-
     /// Returns how many numbers fit without allocating again.
     pub fn capacity(&self) -> usize {
         self.lines.capacity() * LINE_LEN
@@ -161,7 +156,6 @@ mod tests {
         assert_eq!(column, other);
         column.push(4.0);
         assert_eq!(*column, [4.0]);
-        assert_eq!(*Column::zeros(3), [0.0; 3]);
         column.push(5.0);
         column.resize(1);
         column.resize(20);

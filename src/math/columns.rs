@@ -28,12 +28,6 @@ impl Columns {
         Self { x: column(), y: column(), z: column() }
     }
 
-    /// Makes a list of `count` zero vectors.
-    pub fn zeros(count: usize) -> Self {
-        let column = || Column::zeros(count);
-        Self { x: column(), y: column(), z: column() }
-    }
-
     /// Allocates for `capacity` vectors in total.
     pub fn reserve(&mut self, capacity: usize) {
         for column in [&mut self.x, &mut self.y, &mut self.z] {

@@ -80,12 +80,14 @@ pub(crate) struct ChainBlocks {
     is_stale: bool,
     /// Whether all blocks are strided.
     are_all_strided: bool,
+    /// Whether there are steps for chains that tear apart.
+    can_break: bool,
 }
 
 heap_bytes!(
     ChainBlocks {
         steps, blocks, links_of_chains, chain_starts, block_of,
-    } plain { is_stale, are_all_strided }
+    } plain { is_stale, are_all_strided, can_break }
 );
 
 impl ChainBlocks {
@@ -93,7 +95,6 @@ impl ChainBlocks {
     /// apart.
     pub fn new(links: &Links, blocks: &[Vec<&[ChainLink]>], can_break: bool) -> Self {
         let mut result = Self { block_of: vec![NONE; links.len()], ..Self::default() };
-        let mut steps = 0;
         for (at, chains) in blocks.iter().enumerate() {
             let mut chain_starts = [result.links_of_chains.len() as u32; LANES + 1];
             for (lane, chain) in chains.iter().enumerate() {
@@ -103,19 +104,37 @@ impl ChainBlocks {
             }
             result.chain_starts.push(chain_starts);
             result.blocks.push(ChainBlock {
-                first_step: steps,
+                first_step: 0,
                 steps: 0,
                 is_stale: true,
                 strided: None,
             });
+        }
+        result.links_of_chains.shrink_to_fit();
+        result.allocate_steps(links, can_break);
+        result
+    }
+
+    /// Allocates steps for chains that tear apart, unless there are some.
+    pub fn reserve_breaks(&mut self, links: &Links) {
+        if !self.can_break {
+            self.allocate_steps(links, true);
+        }
+    }
+
+    /// Allocates the steps of all blocks and rebuilds them.
+    fn allocate_steps(&mut self, links: &Links, can_break: bool) {
+        let mut steps = 0;
+        for (block, starts) in self.blocks.iter_mut().zip(&self.chain_starts) {
+            (block.first_step, block.steps, block.is_stale) = (steps, 0, true);
+            let lengths = starts.windows(2).map(|ends| (ends[1] - ends[0]) as usize);
+            let longest = lengths.max().unwrap_or(0);
             // Each segment has a start and at least one link.
-            let longest = chains.iter().map(|chain| chain.len()).max().unwrap_or(0);
             steps += if can_break { 2 * longest } else { longest + 1 };
         }
-        result.steps = vec![NO_STEP; steps];
-        result.is_stale = true;
-        result.rebuild_stale(links);
-        result
+        self.steps = vec![NO_STEP; steps];
+        (self.is_stale, self.can_break) = (true, can_break);
+        self.rebuild_stale(links);
     }
 
     /// The steps of each block, in the order in which they are solved.

@@ -414,7 +414,9 @@ fn index_links_by_site(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
     for vertex in 1..first.len() {
         first[vertex] += first[vertex - 1];
     }
-    (first, pairs.into_iter().map(|[_, link]| link).collect())
+    let mut of_sites = Vec::with_capacity(pairs.len());
+    of_sites.extend(pairs.iter().map(|[_, link]| *link));
+    (first, of_sites)
 }
 
 /// Lookup of edges by their two vertices.

@@ -39,6 +39,7 @@ impl Constraints {
         if let Some(rows) = &mut self.rows {
             rows.reserve();
         }
+        self.chains.blocks.reserve_breaks(&self.links);
     }
 
     /// The list and index of a link number.

@@ -29,13 +29,15 @@ const MAX_FOLD_ELEMENTS: usize = 128;
 const TINY_ANGLE: f32 = 1.0e-3;
 
 /// Rest angles of all elements. A grid has a list per kind; for another mesh the first list holds
-/// its hinges.
+/// its hinges. The lists are empty until `reserve`, as if all angles were 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Folds {
     /// Rest angles [rad].
     pub angle: PerKind<Vec<f32>>,
     /// Rest curvatures that follow from them: lengths along the normal [m].
     pub offset: PerKind<Vec<f32>>,
+    /// Number of elements of each kind.
+    counts: PerKind<usize>,
     /// Whether any angle is not 0.
     pub has_any: bool,
     /// Plastic curvature accumulated so far.
@@ -53,32 +55,38 @@ pub(crate) struct Folds {
 heap_bytes!(
     Folds {
         angle, offset, hardening, bent, twist_increment, previous_rest, hinge_hardening,
-    } plain { has_any }
+    } plain { counts, has_any }
 );
 
 impl Folds {
     /// The folds of a flat grid.
     pub fn of_plates(plates: &PlateElements) -> Self {
-        let list = || vec![0.0; plates.count()];
-        let each = || [list(), list(), list()];
-        Self {
-            angle: each(),
-            offset: each(),
-            bent: list(),
-            twist_increment: list(),
-            hardening: Hardening::new(plates.count()),
-            ..Self::default()
-        }
+        let count = plates.count();
+        Self { counts: [count; 3], hardening: Hardening::new(count), ..Self::default() }
     }
 
     /// The folds of a mesh with these hinges, all unbent.
     pub fn of_hinges(hinges: &Hinges) -> Self {
-        let list = || vec![0.0; hinges.all.len()];
         Self {
-            angle: [list(), Vec::new(), Vec::new()],
-            offset: [list(), Vec::new(), Vec::new()],
+            counts: [hinges.all.len(), 0, 0],
             hardening: Hardening::new(hinges.elements.count()),
             ..Self::default()
+        }
+    }
+
+    /// Returns whether the lists have an entry per element.
+    pub fn is_allocated(&self) -> bool {
+        self.angle[0].len() == self.counts[0]
+    }
+
+    /// Allocates the lists, with zeros.
+    pub fn reserve(&mut self) {
+        for (lists, count) in [&mut self.angle, &mut self.offset].map(|lists| (lists, self.counts))
+        {
+            lists.iter_mut().zip(count).for_each(|(list, count)| list.resize(count, 0.0));
+        }
+        for list in [&mut self.bent, &mut self.twist_increment] {
+            list.resize(self.counts[2], 0.0);
         }
     }
 
@@ -94,6 +102,7 @@ impl Folds {
         if angle.iter().all(Vec::is_empty) {
             return true;
         }
+        self.reserve();
         if !self.angle.iter().zip(&angle).all(fits) {
             return false;
         }
@@ -111,6 +120,7 @@ impl Folds {
     pub fn reserve_hardening(&mut self, material: &Material) {
         self.hardening.reserve(material);
         if material.tracks_hardening() {
+            self.reserve();
             self.previous_rest.resize(self.angle[0].len(), [0.0; 3]);
             self.hinge_hardening
                 .resize(if self.bent.is_empty() { self.angle[0].len() } else { 0 }, 0.0);

@@ -46,7 +46,7 @@ pub(crate) struct TetherSet {
 heap_bytes!(TetherSet { pin, length, via_triangle } plain { single_pin });
 
 /// The tethers of a cloth.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Tethers {
     sets: [TetherSet; MAX_SEPARATE_PINS],
     used: usize,
@@ -70,24 +70,29 @@ struct TetherScratch {
 heap_bytes!(TetherScratch { fan, invalid, is_affected, affected } plain {});
 
 impl Tethers {
-    /// Creates no tethers, allocated for `capacity` particles.
-    pub fn with_capacity(capacity: usize) -> Self {
-        let sets = [(); MAX_SEPARATE_PINS].map(|()| TetherSet {
-            pin: Vec::with_capacity(capacity),
-            length: Vec::with_capacity(capacity),
-            via_triangle: Vec::with_capacity(capacity),
-            single_pin: None,
-        });
-        Self { sets, used: 0, pin_count: 0, scratch: TetherScratch::default() }
+    /// Returns whether one set holds the tethers to all of `pins` pins.
+    pub fn has_common_set(pins: usize) -> bool {
+        pins > MAX_SEPARATE_PINS
     }
 
-    /// Allocates for `capacity` particles and `triangles` triangles in all.
-    pub fn reserve(&mut self, capacity: usize, triangles: usize) {
-        for set in &mut self.sets {
+    /// Allocates the sets of this number of pins for `capacity` particles in all; `None` stands for
+    /// any number.
+    pub fn reserve(&mut self, pins: Option<usize>, capacity: usize) {
+        let used = match pins {
+            Some(pins) if Self::has_common_set(pins) => 1,
+            Some(pins) => pins,
+            None => MAX_SEPARATE_PINS,
+        };
+        for set in &mut self.sets[..used] {
             set.pin.reserve_total(capacity);
             set.length.reserve_total(capacity);
             set.via_triangle.reserve_total(capacity);
         }
+    }
+
+    /// Allocates for updates after tears in a mesh of at most `capacity` particles and `triangles`
+    /// triangles.
+    pub fn reserve_for_tears(&mut self, capacity: usize, triangles: usize) {
         let TetherScratch { fan, invalid, is_affected, affected } = &mut self.scratch;
         fan.corners.reserve(64);
         fan.ring.reserve(65);
@@ -114,7 +119,7 @@ impl Tethers {
         pinned: impl Iterator<Item = u32> + Clone,
     ) {
         self.pin_count = pinned.clone().count();
-        let is_few = self.pin_count <= MAX_SEPARATE_PINS;
+        let is_few = !Self::has_common_set(self.pin_count);
         self.used = if is_few { self.pin_count } else { 1 };
         for (at, set) in self.sets[..self.used].iter_mut().enumerate() {
             set.pin.clear();
@@ -338,7 +343,7 @@ mod tests {
             GridFrame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
         let rest = grid::positions(21, 17, &frame);
         let mesh = Mesh::new(grid::triangles(21, 17), rest.len(), rest.len());
-        let mut tethers = Tethers::with_capacity(rest.len());
+        let mut tethers = Tethers::default();
         tethers.rebuild(&mesh, &rest, [0, 20].into_iter());
         assert_eq!(tethers.sets().len(), 2);
         for (set, corner) in tethers.sets().iter().zip([0usize, 20]) {
@@ -358,8 +363,7 @@ mod tests {
             GridFrame { origin: Vec3::ZERO, right: Vec3::X, down: Vec3::NEG_Y, spacing: 0.1 };
         let rest = grid::positions(21, 17, &frame);
         let mut mesh = Mesh::new(grid::triangles(21, 17), rest.len(), rest.len() + 40);
-        let mut tethers = Tethers::with_capacity(rest.len() + 40);
-        tethers.reserve(rest.len() + 40, mesh.triangles.len());
+        let mut tethers = Tethers::default();
         tethers.rebuild(&mesh, &rest, 0..21);
         // A slit along a row in the middle, vertex by vertex.
         for column in 5..16 {
@@ -377,7 +381,7 @@ mod tests {
             tethers.push_copy_of(vertex as u32);
             tethers.update_after_tear(&mesh, &rest, &[vertex as u32, new]);
         }
-        let mut measured_again = Tethers::with_capacity(mesh.vertex_count());
+        let mut measured_again = Tethers::default();
         measured_again.rebuild(&mesh, &rest, 0..21);
         let below = 9 * 21 + 10;
         let straight = 0.9;

@@ -373,6 +373,7 @@ impl World {
 
     /// Rebuilds all tethers, after pins or pieces changed.
     pub fn rebuild_tethers(&mut self) {
+        self.reserve_tethers();
         self.tethers.rebuild(&self.mesh, &self.rest, self.pins.hard_particles());
         self.refresh_after_tether_change();
     }

@@ -15,9 +15,10 @@ use glam::Vec3;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BendScratch {
     pub plates: PlateScratch,
-    /// Unit normals of a grid at its particles; filled when folds need them.
+    /// Unit normals of a grid at its particles; empty until there may be folds.
     pub normal: Columns,
-    /// Unit direction in which each plate element is curved at rest, per element kind.
+    /// Unit direction in which each plate element is curved at rest, per element kind; empty until
+    /// there may be folds.
     pub rest_direction: PerKind<Columns>,
     pub mesh: MeshBendScratch,
     /// Multiplier of each dynamic link that is a hinge [kg m].
@@ -35,11 +36,10 @@ impl BendScratch {
         hinges: usize,
         capacity: usize,
     ) -> Self {
-        let grid = || Columns::zeros(plates.map_or(0, PlateElements::count));
         Self {
             plates: plates.map(PlateScratch::new).unwrap_or_default(),
-            normal: grid(),
-            rest_direction: [grid(), grid(), grid()],
+            normal: Columns::default(),
+            rest_direction: PerKind::default(),
             mesh: if plates.is_some() {
                 MeshBendScratch::default()
             } else {
@@ -47,5 +47,11 @@ impl BendScratch {
             },
             hinge_lambda: Vec::new(),
         }
+    }
+
+    /// Allocates what folds of a grid of `count` particles need.
+    pub fn reserve_folds(&mut self, count: usize) {
+        self.normal.resize(count);
+        self.rest_direction.iter_mut().for_each(|direction| direction.resize(count));
     }
 }

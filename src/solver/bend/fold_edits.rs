@@ -20,7 +20,9 @@ impl World {
             Some(plates) => ElementLengths::Grid(plates.spacing),
             None => ElementLengths::Hinges(&self.constraints.hinges.all),
         };
-        self.folds.restore_angles(angle, &lengths)
+        let fits = self.folds.restore_angles(angle, &lengths);
+        self.reserve_for_parameters();
+        fits
     }
 
     /// Replaces the accumulated plastic curvature [1/m] by a saved one; false if it does not fit.
@@ -32,6 +34,7 @@ impl World {
 
     /// Folds a grid by `angle` [rad] along a line in its rest plane, given in grid coordinates [m].
     pub fn crease_grid(&mut self, from: [f32; 2], to: [f32; 2], angle: f32) {
+        self.reserve_folds();
         if let (Some(plates), true) = (&self.plate_elements, from != to) {
             let wears = self.material.tracks_hardening();
             self.folds.crease_plates(plates, CreaseLine::new(from, to), angle, wears);
@@ -40,6 +43,7 @@ impl World {
 
     /// Folds any mesh by `angle` [rad] along a line segment on its rest shape [m].
     pub fn crease_mesh(&mut self, line: [Vec3; 2], angle: f32) {
+        self.reserve_folds();
         let (mesh, rest) = (&self.mesh, &self.rest);
         let at = |hinge: &Hinge| hinge.particles.map(|v| rest[mesh.source[v as usize] as usize]);
         let (hinges, wears) = (&self.constraints.hinges, self.material.tracks_hardening());

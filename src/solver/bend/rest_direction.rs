@@ -170,7 +170,8 @@ mod tests {
             let (column, row) = ((i % columns) as f32, (i / columns) as f32);
             Vec3::new(column, -row, 0.1 * column * row - 0.05 * row * row)
         };
-        let (mut x, mut normal) = (Columns::default(), Columns::zeros(columns * rows));
+        let (mut x, mut normal) = (Columns::default(), Columns::default());
+        normal.resize(columns * rows);
         x.set_all((0..columns * rows).map(place));
         let level = Level::best();
         for row in 0..rows {

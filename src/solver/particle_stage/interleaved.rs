@@ -239,7 +239,9 @@ mod tests {
         for count in 0..10 {
             let number = |i: usize, k: usize| ((i * 7 + k * 13) % 31) as f32 / 7.0 - 2.0;
             let vector = |i: usize, k: usize| Vec3::new(number(i, k), number(i, k + 1), -0.0);
-            let [mut x, mut velocities, mut out] = [(); 3].map(|()| Columns::zeros(count));
+            let mut zeros = Columns::default();
+            zeros.resize(count);
+            let [mut x, mut velocities, mut out] = [(); 3].map(|()| zeros.clone());
             let w: Vec<f32> = (0..count).map(|i| number(i, 5)).collect();
             for i in 0..count {
                 x.set(i, vector(i, 0));

@@ -6,7 +6,8 @@
 use crate::math::column::Column;
 use crate::math::heap_bytes::heap_bytes;
 
-/// Rest lengths and compliances without damping: of the links, then of the dynamic links.
+/// Rest lengths and compliances without damping: of the links, then of the dynamic links. Empty
+/// without damping.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DampingScratch {
     pub undamped: [[Column; 2]; 2],
@@ -15,9 +16,10 @@ pub(crate) struct DampingScratch {
 heap_bytes!(DampingScratch { undamped } plain {});
 
 impl DampingScratch {
-    /// Allocates columns for `links` links and `dynamic` dynamic links.
-    pub fn new(links: usize, dynamic: usize) -> Self {
-        let columns = |count: usize| [Column::with_capacity(count), Column::with_capacity(count)];
-        Self { undamped: [columns(links), columns(dynamic)] }
+    /// Allocates for `links` links and `dynamic` dynamic links in all.
+    pub fn reserve(&mut self, links: usize, dynamic: usize) {
+        for (columns, count) in self.undamped.iter_mut().zip([links, dynamic]) {
+            columns.iter_mut().for_each(|column| column.reserve(count));
+        }
     }
 }
