@@ -37,12 +37,12 @@ heap_bytes!(
 );
 
 impl InterpolatedSurface {
-    /// Reserves the normals of `capacity` particles.
+    /// Makes an empty surface for `capacity` particles, whose lists are allocated when they are
+    /// first asked for.
     pub fn with_capacity(capacity: usize) -> Self {
-        let normals = Columns::with_capacity(capacity);
         Self {
             particle_capacity: capacity,
-            normals,
+            normals: Columns::default(),
             blend_of_normals: None,
             positions: Columns::default(),
             tangents: None,
@@ -101,6 +101,7 @@ impl InterpolatedSurface {
         }
         let x = if blend == 1.0 { &world.particles.x } else { &self.positions };
         if needs_normals {
+            self.normals.reserve(self.particle_capacity);
             normals::compute(world, x, &mut self.normals);
             self.blend_of_normals = Some(blend);
         }

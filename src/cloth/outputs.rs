@@ -28,7 +28,8 @@ pub(crate) struct Outputs {
     /// `are_relative_positions_current`.
     relative_positions: Vec<Vec3>,
     are_relative_positions_current: bool,
-    /// One unit normal per vertex; valid if `are_normals_current`.
+    /// One unit normal per vertex; valid if `are_normals_current`. Allocated at the first request,
+    /// or with the memory for tears.
     pub normals: Vec<Vec3>,
     /// Whether `normals` belong to the current positions.
     pub are_normals_current: bool,
@@ -114,8 +115,10 @@ impl Outputs {
     pub fn reserve(&mut self, world: &World) {
         let (particles, vertices) = (world.allocated_particles(), world.allocated_vertices());
         self.positions.reserve_total(vertices);
-        self.normals.reserve_total(vertices);
-        self.surface.reserve(particles, vertices);
+        if world.has_tear_reserve {
+            self.normals.reserve_total(vertices);
+            self.surface.reserve(particles, vertices);
+        }
         self.uvs.reserve_total(vertices);
         self.sources.reserve_total(vertices);
         self.frayed.reserve_total(vertices);
@@ -235,6 +238,7 @@ impl Outputs {
     pub fn refresh_normals(&mut self, world: &World) {
         if !self.are_normals_current {
             self.surface.update(world, 1.0, None);
+            self.normals.reserve_total(self.positions.capacity());
             normals::scatter_to_vertices(world, &self.surface.normals, &mut self.normals);
             self.are_normals_current = true;
         }

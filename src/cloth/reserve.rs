@@ -11,6 +11,7 @@
 
 use crate::cloth::Cloth;
 use crate::math::reserve::ReserveTotal;
+use crate::math::simd::Level;
 use crate::model::tethers::Tethers;
 use crate::solver::bend::bend_scratch::BendScratch;
 use crate::solver::stretch::line_scratch::LineScratch;
@@ -128,8 +129,12 @@ impl World {
         if !has_grid_rows {
             scratch.interleaved.reserve(particles);
         }
-        let steps = self.constraints.chains.blocks.max_steps();
-        scratch.lines = LineScratch::new(steps, particles, has_grid_rows);
+        let chains = &self.constraints.chains.blocks;
+        // A whole grid has strided chains only, which are solved in columns where there is SIMD.
+        let stays_strided =
+            has_grid_rows && chains.are_all_strided() && self.level != Level::Scalar;
+        let gathers = self.has_tear_reserve || !stays_strided;
+        scratch.lines = LineScratch::new(chains.max_steps(), particles, [gathers, has_grid_rows]);
         let hinges = self.constraints.hinges.all.len();
         scratch.bend = BendScratch::new(self.plate_elements.as_ref(), triangles, hinges, particles);
         scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());

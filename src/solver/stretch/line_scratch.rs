@@ -25,13 +25,15 @@ pub(crate) struct LineScratch {
 heap_bytes!(LineScratch { points, start_points, start_columns, steps } plain {});
 
 impl LineScratch {
-    /// Allocates buffers for blocks of at most `steps` steps over `particles` particles, and
-    /// columns if blocks may be strided.
-    pub fn new(steps: usize, particles: usize, has_strided: bool) -> Self {
+    /// Allocates buffers for blocks of at most `steps` steps over `particles` particles: points if
+    /// blocks may have to be gathered, and columns if they may be strided.
+    pub fn new(steps: usize, particles: usize, [gathers, has_strided]: [bool; 2]) -> Self {
+        let [points, columns] =
+            [gathers, has_strided].map(|is_used| if is_used { particles + 1 } else { 0 });
         Self {
-            points: Vec::with_capacity(particles + 1),
-            start_points: Vec::with_capacity(particles + 1),
-            start_columns: Columns::with_capacity(if has_strided { particles + 1 } else { 0 }),
+            points: Vec::with_capacity(points),
+            start_points: Vec::with_capacity(points),
+            start_columns: Columns::with_capacity(columns),
             steps: vec![LineStep::default(); steps + 1],
         }
     }
