@@ -57,7 +57,7 @@ impl World {
         let is_wanted = self.settings.self_collision == SelfCollision::Particles;
         self.particle_collision = is_wanted.then(|| {
             let input = pair_list_input(self);
-            let (distance, capacity) = (largest_distance(self), self.allocated_particles());
+            let (distance, capacity) = (largest_distance(self), self.capacity());
             Box::new(ParticleCollision::new(input, distance, self.mean_edge, capacity))
         });
     }
