@@ -176,70 +176,43 @@ fn run_pass(
             contact_slots: &mut contacts.contact_slots,
         };
         let candidates = &neighbours.candidates;
-        match pass {
+        let mut pushed = 0.0;
+        let has_triangles = match pass {
             Pass::First => {
-                let has_triangles = neighbours.longest_free_edge < f32::INFINITY;
+                let can_dip = neighbours.longest_free_edge < f32::INFINITY;
                 let clearance = &mut *rounds.clearance;
-                if has_triangles || clearance.len() != particles.w.len() {
+                if can_dip || clearance.len() != particles.w.len() {
                     // Corners of triangles that lie in no listed particle block count as near.
                     clearance.clear();
                     clearance.resize(particles.w.len(), 0.0);
                 }
                 let first_contact = particles.contacts.len();
-                let blocks = neighbours.particle_blocks;
-                let level = world.level;
-                particle_vs_shape::solve_blocks(
-                    level,
-                    shape,
-                    &mut particles,
-                    blocks,
-                    candidates,
-                    clearance,
-                );
-                if pushes_triangles && has_triangles {
+                let (level, blocks) = (world.level, neighbours.particle_blocks);
+                let own = &mut particles;
+                particle_vs_shape::solve_blocks(level, shape, own, blocks, candidates, clearance);
+                if pushes_triangles && can_dip {
                     let new = &particles.contacts[first_contact..];
                     let surface = surface(&cloth, particles.x, scales);
                     rounds.long.measure_after_pushes(new, cloth.mean_edge, surface);
                 }
-                if pushes_triangles {
-                    triangle_rounds::push_triangles(
-                        body,
-                        &mut particles,
-                        &neighbours,
-                        cloth,
-                        &mut rounds,
-                        part,
-                    );
-                }
+                true
             }
             Pass::Again => {
-                let mut pushed = squeezed::push_again(shape, &mut particles, candidates, count);
-                let triangles = &cloth.mesh.triangles[..];
-                if pushes_triangles
-                    && triangle_rounds::mark_pushed_by_others(
-                        shape,
-                        &particles,
-                        &neighbours,
-                        triangles,
-                        &mut rounds,
-                    )
-                {
-                    pushed += triangle_rounds::push_triangles(
-                        body,
-                        &mut particles,
-                        &neighbours,
-                        cloth,
-                        &mut rounds,
-                        part,
-                    );
-                }
-                has_pushed |= pushed > gap * ROUND_TOLERANCE;
+                pushed = squeezed::push_again(shape, &mut particles, candidates, count);
+                let (mesh, rounds) = (cloth.mesh, &mut rounds);
+                triangle_rounds::mark_pushed_by_others(shape, &particles, &neighbours, mesh, rounds)
             }
-            Pass::Distances => squeezed::measure(shape, &mut particles, candidates, count),
-            Pass::Creases { .. } => {
-                squeezed::measure_in_creases(shape, &mut particles, candidates, count);
+            Pass::Distances | Pass::Creases { .. } => {
+                let is_in_crease = pass != Pass::Distances;
+                squeezed::measure(shape, &mut particles, candidates, count, is_in_crease);
+                false
             }
+        };
+        if pushes_triangles && has_triangles {
+            let (own, rounds) = (&mut particles, &mut rounds);
+            pushed += triangle_rounds::push_triangles(body, own, &neighbours, cloth, rounds, part);
         }
+        has_pushed |= pushed > gap * ROUND_TOLERANCE;
     }
     match pass {
         Pass::Distances => {

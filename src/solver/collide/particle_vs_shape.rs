@@ -111,26 +111,32 @@ pub(super) fn solve_particle(
 
 /// Returns the distance of a point from a shape [m]: negative inside a solid, and behind a surface
 /// that its way from `start` to `end` crosses. `most` if it is farther away from all `faces` near it.
+/// With it comes the outward normal of a convex solid.
 #[inline(never)]
 pub(super) fn signed_distance(
     shape: &CollisionShape,
     faces: &[u32],
     [start, end]: [Vec3; 2],
     most: f32,
-) -> f32 {
+) -> (f32, Option<Vec3>) {
+    let of_solid = |(distance, normal): (f32, Vec3)| (distance, Some(normal));
     match shape {
         CollisionShape::ConvexHull(body, _) => match faces {
-            [] => most,
-            faces => CandidateFaces { body, faces }.signed_distance(end).0,
+            [] => (most, None),
+            faces => of_solid(CandidateFaces { body, faces }.signed_distance(end)),
         },
         CollisionShape::TriangleSurface(surface, _) => {
             let nearby = CandidateTriangles { surface, triangles: faces };
-            match nearby.first_crossing(start, end) {
+            let distance = match nearby.first_crossing(start, end) {
                 Some(point) => (end - point.at).dot(point.outward),
                 None => nearby.closest(end, start, most).map_or(most, |point| point.distance),
-            }
+            };
+            (distance, None)
         }
-        _ => -shape.depth(end),
+        _ => match shape.solid() {
+            Some(solid) => of_solid(solid.signed_distance(end)),
+            None => (-shape.depth(end), None),
+        },
     }
 }
 

@@ -25,8 +25,6 @@
 //! Invariant: only particles move that two colliders push towards each other.
 
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::polyhedron::CandidateFaces;
-use crate::geometry::signed_distance::SignedDistance;
 use crate::math::columns::Columns;
 use crate::math::{max, min};
 use crate::solver::collide::collider_contact::ColliderContact;
@@ -71,7 +69,7 @@ pub(super) fn push_again(
             continue;
         }
         let path = [particles.start_position(i), particles.end_position(i)];
-        let distance = signed_distance(shape, candidates.faces(i), path, 0.0);
+        let (distance, _) = signed_distance(shape, candidates.faces(i), path, 0.0);
         if distance < 0.0 {
             solve_particle(shape, particles, candidates, i);
             deepest = max(-distance, deepest);
@@ -80,55 +78,40 @@ pub(super) fn push_again(
     deepest
 }
 
-/// Measures the unknown distances of the first `count` contacts from a shape.
+/// Measures the first `count` contacts of particles between two colliders: the distances that are
+/// unknown, or in a crease, distances and normals. At shapes that are no convex solids, particles in a
+/// crease count as outside.
 #[inline(never)]
 pub(super) fn measure(
     shape: &CollisionShape,
     particles: &mut LocalParticles<'_>,
     candidates: &Candidates<'_>,
     count: usize,
+    is_in_crease: bool,
 ) {
     for at in 0..count {
         let contact = &particles.contacts[at];
-        let i = contact.particle as usize;
-        if contact.body == particles.body && contact.distance == UNKNOWN {
-            let path = [particles.start_position(i), particles.end_position(i)];
-            // Farther away it only matters that there is room.
-            let most = 4.0 * contact.gap;
-            particles.contacts[at].distance =
-                signed_distance(shape, candidates.faces(i), path, most);
-        }
-    }
-}
-
-/// Measures the distances and normals of the first `count` contacts of particles that two colliders
-/// leave less than their room. At shapes that are no convex solids, particles count as outside.
-#[inline(never)]
-pub(super) fn measure_in_creases(
-    shape: &CollisionShape,
-    particles: &mut LocalParticles<'_>,
-    candidates: &Candidates<'_>,
-    count: usize,
-) {
-    for at in 0..count {
-        let contact = &particles.contacts[at];
-        let i = contact.particle as usize;
-        if contact.body != particles.body || !particles.contact_scales.has_less_room(i) {
+        let (i, is_own) = (contact.particle as usize, contact.body == particles.body);
+        let is_wanted = if is_in_crease {
+            particles.contact_scales.has_less_room(i)
+        } else {
+            contact.distance == UNKNOWN
+        };
+        if !(is_own && is_wanted) {
             continue;
         }
-        let end = particles.end_position(i);
-        let measured = match shape {
-            CollisionShape::ConvexHull(_, _) if candidates.faces(i).is_empty() => None,
-            CollisionShape::ConvexHull(body, _) => {
-                let solid = CandidateFaces { body, faces: candidates.faces(i) };
-                Some(solid.signed_distance(end))
-            }
-            _ => shape.solid().map(|solid| solid.signed_distance(end)),
-        };
-        let normal = measured.map(|(_, normal)| particles.frames[1].vector_to_world(normal));
+        let path = [particles.start_position(i), particles.end_position(i)];
+        // Farther away it only matters that there is room.
+        let most = 4.0 * contact.gap;
+        let (distance, normal) = signed_distance(shape, candidates.faces(i), path, most);
         let contact = &mut particles.contacts[at];
-        contact.distance = measured.map_or(f32::INFINITY, |(distance, _)| distance);
-        contact.normal = normal.unwrap_or(contact.normal);
+        contact.distance = distance;
+        if is_in_crease {
+            match normal {
+                Some(normal) => contact.normal = particles.frames[1].vector_to_world(normal),
+                None => contact.distance = UNKNOWN,
+            }
+        }
     }
 }
 

@@ -180,9 +180,10 @@ pub(super) fn mark_pushed_by_others(
     shape: &CollisionShape,
     particles: &LocalParticles<'_>,
     neighbours: &Neighbours<'_>,
-    triangles: &[[u32; 3]],
+    mesh: &Mesh,
     scratch: &mut RoundScratch<'_>,
 ) -> bool {
+    let triangles = &mesh.triangles[..];
     if neighbours.longest_free_edge == f32::INFINITY {
         return false;
     }
