@@ -21,6 +21,7 @@ use crate::solver::world::World;
 
 impl Cloth {
     /// Allocates the memory for tears and cuts, unless the cloth has it.
+    #[inline(never)]
     pub(super) fn reserve_for_tears(&mut self) {
         if !self.world.has_tear_reserve {
             self.world.add_tear_reserve();
@@ -42,6 +43,7 @@ impl World {
     }
 
     /// Allocates the memory for tears and cuts, which the cloth does not have. The state stays.
+    #[inline(never)]
     pub(crate) fn add_tear_reserve(&mut self) {
         self.has_tear_reserve = true;
         self.reserve_lists();
@@ -73,6 +75,7 @@ impl World {
     }
 
     /// Allocates the lists outside of the scratch buffers.
+    #[inline(never)]
     fn reserve_lists(&mut self) {
         let particles = self.allocated_particles();
         let reserve = |list: &mut Vec<u32>| list.reserve_total(particles);
@@ -99,6 +102,7 @@ impl World {
 
     /// Allocates for the pins and events of tears, if the cloth can tear: a tear through a pinned
     /// vertex adds a pin.
+    #[inline(never)]
     pub(crate) fn reserve_pins_and_events(&mut self) {
         if self.has_tear_reserve {
             self.pins.reserve(self.capacity());
@@ -107,6 +111,7 @@ impl World {
     }
 
     /// Allocates links and tethers for all edges that tears may open.
+    #[inline(never)]
     fn reserve_constraints(&mut self) {
         let (particles, triangles) = (self.allocated_particles(), self.mesh.triangles.len());
         if self.has_tear_reserve {
@@ -120,6 +125,7 @@ impl World {
     }
 
     /// Allocates the scratch buffers of the solver stages.
+    #[inline(never)]
     fn reserve_scratch(&mut self) {
         let (particles, triangles) = (self.allocated_particles(), self.mesh.triangles.len());
         let links = self.constraints.links.len();
@@ -150,6 +156,7 @@ impl World {
 
     /// Allocates what only some settings and materials need: the strain limit, damping of stretch,
     /// and folds.
+    #[inline(never)]
     pub(crate) fn reserve_for_parameters(&mut self) {
         let (particles, links) = (self.allocated_particles(), self.constraints.links.len());
         if self.settings.max_stretch > 0.0 {
@@ -168,6 +175,7 @@ impl World {
     }
 
     /// Allocates rest angles of all bending elements, and what bending needs with them.
+    #[inline(never)]
     pub(crate) fn reserve_folds(&mut self) {
         self.folds.reserve();
         if let Some(plates) = &self.plate_elements {
@@ -176,6 +184,7 @@ impl World {
     }
 
     /// Allocates tethers to the pins that there are, and to those that tears may add.
+    #[inline(never)]
     pub(crate) fn reserve_tethers(&mut self) {
         let pins = self.pins.hard_particles().count();
         let sets = if self.has_tear_reserve { None } else { Some(pins) };
@@ -196,6 +205,7 @@ impl World {
     }
 
     /// Allocates the lists of pieces. If the cloth can tear, each triangle may become one.
+    #[inline(never)]
     fn reserve_pieces(&mut self) {
         let (particles, triangles) = (self.allocated_particles(), self.mesh.triangles.len());
         let pieces = if self.has_tear_reserve { triangles } else { self.pieces as usize };
