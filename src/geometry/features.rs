@@ -39,6 +39,21 @@ pub(crate) enum FeatureSides {
     Boundary,
 }
 
+/// Whether there are colliders whose features are not those of a solid, or move.
+const HAS_SURFACES: bool = cfg!(feature = "facet-colliders");
+
+impl FeatureSides {
+    /// Returns whether there is free space on both sides of the surface.
+    pub fn is_two_sided(self) -> bool {
+        HAS_SURFACES && self == Self::TwoSided
+    }
+
+    /// Returns whether the feature lies on the boundary of a surface.
+    pub fn is_boundary(self) -> bool {
+        HAS_SURFACES && self == Self::Boundary
+    }
+}
+
 /// An edge feature: the segment where two faces meet at an angle, or where one face ends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeFeature {
@@ -234,7 +249,7 @@ impl Features {
             Feature::Edge(edge) => Aabb::from_points(edge.ends),
             Feature::Vertex(_, vertex) => Aabb { low: vertex.position, high: vertex.position },
         };
-        match self.motions.get(id as usize) {
+        match self.motion(id) {
             Some(motion) => bounds.expanded(motion.whole.longest()),
             None => bounds,
         }
@@ -246,7 +261,7 @@ impl Features {
             Feature::Edge(edge) => Aabb::from_points(edge.ends),
             Feature::Vertex(_, vertex) => Aabb { low: vertex.position, high: vertex.position },
         };
-        let whole = self.motions.get(id as usize).map_or(PartMotion::default(), |one| one.whole);
+        let whole = self.motion(id).map_or(PartMotion::default(), |one| one.whole);
         SweptBox::new(
             now,
             shares.map(|share| whole.mean * share),
@@ -256,15 +271,19 @@ impl Features {
 
     /// Returns how far points move relative to a feature, at most [m]; 0 if features do not move.
     pub fn reach<const COUNT: usize>(&self, id: u32, points: [&PointMotion; COUNT]) -> f32 {
-        match self.motions.get(id as usize) {
+        match self.motion(id) {
             Some(motion) => points.iter().fold(0.0, |most, p| max(p.reach(&motion.whole), most)),
             None => 0.0,
         }
     }
 
+    fn motion(&self, id: u32) -> Option<&FeatureMotion> {
+        if HAS_SURFACES { self.motions.get(id as usize) } else { None }
+    }
+
     /// Returns the motion of an edge in the substep; `None` if features do not move.
     pub fn edge_step(&self, edge: u32) -> Option<&RigidStep> {
-        self.motions.get(edge as usize).map(|motion| &motion.step)
+        self.motion(edge).map(|motion| &motion.step)
     }
 
     /// Returns the motion of a vertex in the substep; `None` if features do not move.

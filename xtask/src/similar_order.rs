@@ -4,26 +4,59 @@
 //! from one generic function have most bytes in common, which helps only where they are that near.
 //!
 //! Method: a greedy path through the parts. The next one is that which shares most with the parts of
-//! the last window: substrings of `LENGTH` bytes, rare ones weighing more, relative to its size.
+//! the last window: substrings of some bytes, rare ones weighing more, relative to its size. Which
+//! parameters are best differs from file to file, so the best of some orders is taken.
 //!
 //! Reads the parts; writes nothing.
 //! Invariant: the order follows from the bytes alone, so that builds are reproducible.
 
 use std::collections::HashMap;
+use std::io::Write;
 
-/// The length of the substrings that are compared [bytes].
-const LENGTH: usize = 5;
+use flate2::Compression;
+use flate2::write::GzEncoder;
 
-/// How far back parts count as near [bytes].
-const WINDOW: usize = 28_000;
+/// Parameters of a greedy path.
+struct Greed {
+    /// The length of the substrings that are compared [bytes].
+    length: usize,
+    /// How far back parts count as near [bytes].
+    window: usize,
+    /// The power of the size of a part by which its similarity is divided, in eighths from 5 to 7.
+    eighths: u32,
+}
 
-/// Returns the parts in their new order, each by its index. The longest comes first.
+const TRIED: [Greed; 8] = [
+    Greed { length: 5, window: 28_000, eighths: 5 },
+    Greed { length: 5, window: 28_000, eighths: 6 },
+    Greed { length: 5, window: 28_000, eighths: 7 },
+    Greed { length: 5, window: 32_000, eighths: 5 },
+    Greed { length: 6, window: 28_000, eighths: 6 },
+    Greed { length: 6, window: 28_000, eighths: 7 },
+    Greed { length: 6, window: 32_000, eighths: 5 },
+    Greed { length: 6, window: 32_000, eighths: 7 },
+];
+
+/// Returns the parts in their new order, each by its index.
 pub fn similar_order(parts: &[&[u8]]) -> Vec<usize> {
+    let orders = TRIED.iter().map(|greed| greedy_order(parts, greed));
+    orders.min_by_key(|order| compressed_size(parts, order)).unwrap_or_default()
+}
+
+/// Returns the size of the parts in this order, compressed by gzip [bytes].
+fn compressed_size(parts: &[&[u8]], order: &[usize]) -> usize {
+    let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
+    let written = order.iter().try_for_each(|part| gzip.write_all(parts[*part]));
+    written.and_then(|()| gzip.finish()).map_or(usize::MAX, |packed| packed.len())
+}
+
+/// Returns the order along a greedy path. The longest part comes first.
+fn greedy_order(parts: &[&[u8]], greed: &Greed) -> Vec<usize> {
     let mut order = Vec::with_capacity(parts.len());
     let Some(mut next) = (0..parts.len()).rev().max_by_key(|part| parts[*part].len()) else {
         return order;
     };
-    let mut window = Window::new(parts);
+    let mut window = Window::new(parts, greed);
     let mut is_placed = vec![false; parts.len()];
     let (mut first, mut bytes) = (0, 0);
     loop {
@@ -31,7 +64,7 @@ pub fn similar_order(parts: &[&[u8]]) -> Vec<usize> {
         order.push(next);
         window.add(next);
         bytes += parts[next].len();
-        while bytes > WINDOW && first + 1 < order.len() {
+        while bytes > greed.window && first + 1 < order.len() {
             window.remove(order[first]);
             bytes -= parts[order[first]].len();
             first += 1;
@@ -54,17 +87,19 @@ struct Window {
     counts: Vec<u32>,
     /// The weight of the substrings that each part shares with the window.
     shared: Vec<u64>,
+    eighths: u32,
 }
 
 impl Window {
-    fn new(parts: &[&[u8]]) -> Self {
+    fn new(parts: &[&[u8]], greed: &Greed) -> Self {
         let mut numbers = HashMap::new();
-        let mut substrings_of = |part: &[u8]| {
+        let mut substrings_of = |part| {
             let number = |substring| {
                 let next = numbers.len() as u32;
-                *numbers.entry(<[u8; LENGTH]>::try_from(substring).unwrap()).or_insert(next)
+                *numbers.entry(substring).or_insert(next)
             };
-            let mut substrings: Vec<u32> = part.windows(LENGTH).map(number).collect();
+            let windows = <[u8]>::windows(part, greed.length);
+            let mut substrings: Vec<u32> = windows.map(number).collect();
             substrings.sort_unstable();
             substrings.dedup();
             substrings
@@ -75,7 +110,13 @@ impl Window {
             substrings.iter().for_each(|substring| parts_of[*substring as usize].push(part));
         }
         let counts = vec![0; parts_of.len()];
-        Self { substrings, parts: parts_of, counts, shared: vec![0; parts.len()] }
+        Self {
+            substrings,
+            parts: parts_of,
+            counts,
+            shared: vec![0; parts.len()],
+            eighths: greed.eighths,
+        }
     }
 
     fn add(&mut self, part: usize) {
@@ -100,10 +141,17 @@ impl Window {
         }
     }
 
-    /// How much a part is like the window, relative to its size to the power of 3/4.
+    /// How much a part is like the window, relative to a power of its size.
     fn similarity(&self, part: usize) -> f64 {
         let root = (self.substrings[part].len() as f64 + 30.0).sqrt();
-        self.shared[part] as f64 / (root * root.sqrt())
+        let (quarter, eighth) = (root.sqrt(), root.sqrt().sqrt());
+        // Roots are the same on all machines, other powers are not.
+        let power = match self.eighths {
+            5 => root * eighth,
+            6 => root * quarter,
+            _ => root * quarter * eighth,
+        };
+        self.shared[part] as f64 / power
     }
 }
 

@@ -17,7 +17,7 @@
 
 use crate::geometry::closest_points::interpolate;
 use crate::geometry::collision_shape::CollisionShape;
-use crate::geometry::features::{EdgeFeature, FeatureSides, Features, VertexFeature};
+use crate::geometry::features::{EdgeFeature, Features, VertexFeature};
 use crate::geometry::relative_motion::RigidStep;
 use crate::math::{TINY, max, min};
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
@@ -101,7 +101,7 @@ pub(super) fn collect_close_pairs(
         let normal = (edge.ends[1] - edge.ends[0]).cross(b - a);
         let height = normal.dot(a) * 1.0_f32.copysign(normal.dot(edge.outward));
         // The outward side of a boundary depends on where the cloth is.
-        if edge.sides == FeatureSides::Boundary || is_close(height, normal) {
+        if edge.sides.is_boundary() || is_close(height, normal) {
             close_pairs.push(at as u32);
         }
     }
@@ -110,7 +110,7 @@ pub(super) fn collect_close_pairs(
         let [a, b, c] = pair.particles.map(|i| local_positions[i as usize] - vertex.position);
         let normal = (b - a).cross(c - a);
         let height = normal.dot(a) * 1.0_f32.copysign(normal.dot(vertex.outward));
-        if vertex.sides == FeatureSides::Boundary || is_close(height, normal) {
+        if vertex.sides.is_boundary() || is_close(height, normal) {
             close_pairs.push((edges.len() + at) as u32);
         }
     }
@@ -195,13 +195,11 @@ fn edge_contact(
             is_beside: is_fast && edge_crossing(edge, start, own).is_none(),
         });
         let are_outside = start.iter().map(|x| edge.is_outside(*x));
-        if edge.sides == FeatureSides::TwoSided
-            && !was_outside(own, step.is_none(), gap, are_outside)
-        {
+        if edge.sides.is_two_sided() && !was_outside(own, step.is_none(), gap, are_outside) {
             return passed();
         }
         let start_height = corrected_start_height(start_height, gap, is_fast, own);
-        if edge.sides == FeatureSides::Boundary && start_height <= 0.0 {
+        if edge.sides.is_boundary() && start_height <= 0.0 {
             return None;
         }
         let depenetration = particles.depenetration;
@@ -294,7 +292,7 @@ fn edge_passage(
     ([i, j], start, end): ([usize; 2], [Vec3; 2], [Vec3; 2]),
     gap: f32,
 ) -> Option<([usize; 3], TriangleContact)> {
-    if edge.sides != FeatureSides::TwoSided {
+    if !edge.sides.is_two_sided() {
         return None;
     }
     let (first, last) = (outward_normal(edge, start)?, outward_normal(edge, end)?);
@@ -320,7 +318,7 @@ fn vertex_passage(
     (corners, start, end): ([usize; 3], [Vec3; 3], [Vec3; 3]),
     gap: f32,
 ) -> Option<([usize; 3], TriangleContact)> {
-    if vertex.sides != FeatureSides::TwoSided {
+    if !vertex.sides.is_two_sided() {
         return None;
     }
     let (weights, back, depth) = point_crossing(vertex.position, start, end)?;
@@ -374,9 +372,7 @@ fn vertex_contact(
             StartPlane { height: p.dot(own), is_beside }
         });
         let are_outside = start.iter().map(|x| features.is_outside_vertex(vertex, *x));
-        if vertex.sides == FeatureSides::TwoSided
-            && !was_outside(own, step.is_none(), gap, are_outside)
-        {
+        if vertex.sides.is_two_sided() && !was_outside(own, step.is_none(), gap, are_outside) {
             return passed();
         }
         let start_height = corrected_start_height(start_height, gap, is_fast, own);
@@ -409,7 +405,7 @@ fn vertex_normal(
         return None;
     }
     let normal = normal * (1.0 / length);
-    let outward = if vertex.sides == FeatureSides::Boundary {
+    let outward = if vertex.sides.is_boundary() {
         let [p, q, r] = start;
         // At a boundary, outward is the side where the triangle was.
         let start_normal = (q - p).cross(r - p);
