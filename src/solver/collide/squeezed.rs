@@ -14,8 +14,9 @@
 //! Where solids overlap, r is 0: there is no room on the line between them, but beside it, in the
 //! crease between them. With both surfaces as planes, c = nA·nB, the step that ends on both is
 //!
-//!     a nA + b nB      a = (c dB - dA) / (1 - c²)      b = (c dA - dB) / (1 - c²)
-//!
+//! ```text
+//! a nA + b nB      a = (c dB - dA) / (1 - c²)      b = (c dA - dB) / (1 - c²)
+//! ```
 //! and a particle that is outside of one already only leaves the other (Newton's method). Along the
 //! line between two centres c is nearly -1, and the crease is far away compared to the depth: so
 //! steps begin short and grow.
