@@ -28,7 +28,7 @@ fn build_package() -> Result {
     let vectors = module("vectors", |package| wasm::compile(package, wasm::FLAGS))?;
     let plain = module("plain", |package| wasm::compile(package, wasm::PLAIN))?;
     let light = module("light", wasm::compile_light)?;
-    let small = module("small", wasm::compile_small)?;
+    let small = module(SMALL, wasm::compile_small)?;
     // Minified, because comments and names of arguments may differ.
     for built in [&vectors, &plain, &light, &small] {
         tools::minify(&built.join("raw_bg.js"), &built.join("raw.js"), "--minify")?;
@@ -72,11 +72,15 @@ fn minify_scripts(sources: &Path) -> Result {
     Ok(())
 }
 
+/// The module that becomes a script.
+const SMALL: &str = "small";
+
 /// Builds a module and its binding script in `target/js/NAME`, and returns that folder.
 fn module(name: &str, compile: impl Fn(&str) -> Result<PathBuf>) -> Result<PathBuf> {
     let to = files::target().join("js").join(name);
     files::create_dir(&to)?;
-    wasm::bind(&compile("muslin-js")?, &to, "raw")?;
+    // What wasm2js translates it optimises itself.
+    wasm::bind(&compile("muslin-js")?, &to, "raw", name != SMALL)?;
     Ok(to)
 }
 

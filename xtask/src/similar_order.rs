@@ -17,24 +17,27 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 
 /// Parameters of a greedy path.
+#[derive(Clone, Copy)]
 struct Greed {
     /// The length of the substrings that are compared [bytes].
     length: usize,
     /// How far back parts count as near [bytes].
     window: usize,
-    /// The power of the size of a part by which its similarity is divided, in eighths from 5 to 7.
+    /// The power of the size of a part by which its similarity is divided, in eighths.
     eighths: u32,
+    /// The power of the number of parts with a substring by which its weight is divided, in eighths.
+    rarity: u32,
 }
 
 const TRIED: [Greed; 8] = [
-    Greed { length: 5, window: 28_000, eighths: 5 },
-    Greed { length: 5, window: 28_000, eighths: 6 },
-    Greed { length: 5, window: 28_000, eighths: 7 },
-    Greed { length: 5, window: 32_000, eighths: 5 },
-    Greed { length: 6, window: 28_000, eighths: 6 },
-    Greed { length: 6, window: 28_000, eighths: 7 },
-    Greed { length: 6, window: 32_000, eighths: 5 },
-    Greed { length: 6, window: 32_000, eighths: 7 },
+    Greed { length: 5, window: 28_000, eighths: 6, rarity: 4 },
+    Greed { length: 5, window: 28_000, eighths: 7, rarity: 4 },
+    Greed { length: 5, window: 32_000, eighths: 6, rarity: 4 },
+    Greed { length: 6, window: 32_000, eighths: 5, rarity: 4 },
+    Greed { length: 6, window: 32_000, eighths: 7, rarity: 4 },
+    Greed { length: 6, window: 32_000, eighths: 5, rarity: 6 },
+    Greed { length: 6, window: 32_000, eighths: 6, rarity: 6 },
+    Greed { length: 6, window: 32_000, eighths: 7, rarity: 6 },
 ];
 
 /// Returns the parts in their new order, each by its index.
@@ -87,7 +90,7 @@ struct Window {
     counts: Vec<u32>,
     /// The weight of the substrings that each part shares with the window.
     shared: Vec<u64>,
-    eighths: u32,
+    greed: Greed,
 }
 
 impl Window {
@@ -110,20 +113,14 @@ impl Window {
             substrings.iter().for_each(|substring| parts_of[*substring as usize].push(part));
         }
         let counts = vec![0; parts_of.len()];
-        Self {
-            substrings,
-            parts: parts_of,
-            counts,
-            shared: vec![0; parts.len()],
-            eighths: greed.eighths,
-        }
+        Self { substrings, parts: parts_of, counts, shared: vec![0; parts.len()], greed: *greed }
     }
 
     fn add(&mut self, part: usize) {
         for substring in self.substrings[part].iter().map(|substring| *substring as usize) {
             self.counts[substring] += 1;
             if self.counts[substring] == 1 {
-                let weight = weight(&self.parts[substring]);
+                let weight = self.weight(substring);
                 let parts = &self.parts[substring];
                 parts.iter().for_each(|part| self.shared[*part as usize] += weight);
             }
@@ -134,30 +131,33 @@ impl Window {
         for substring in self.substrings[part].iter().map(|substring| *substring as usize) {
             self.counts[substring] -= 1;
             if self.counts[substring] == 0 {
-                let weight = weight(&self.parts[substring]);
+                let weight = self.weight(substring);
                 let parts = &self.parts[substring];
                 parts.iter().for_each(|part| self.shared[*part as usize] -= weight);
             }
         }
     }
 
+    /// The weight of a substring: less if many parts have it.
+    fn weight(&self, substring: usize) -> u64 {
+        match self.parts[substring].len() {
+            1 => 0,
+            count => (65536.0 / power(count as f64, self.greed.rarity)) as u64,
+        }
+    }
+
     /// How much a part is like the window, relative to a power of its size.
     fn similarity(&self, part: usize) -> f64 {
-        let root = (self.substrings[part].len() as f64 + 30.0).sqrt();
-        let (quarter, eighth) = (root.sqrt(), root.sqrt().sqrt());
-        // Roots are the same on all machines, other powers are not.
-        let power = match self.eighths {
-            5 => root * eighth,
-            6 => root * quarter,
-            _ => root * quarter * eighth,
-        };
-        self.shared[part] as f64 / power
+        let size = self.substrings[part].len() as f64 + 30.0;
+        self.shared[part] as f64 / power(size, self.greed.eighths)
     }
 }
 
-/// The weight of a substring that these parts have.
-fn weight(parts: &[u32]) -> u64 {
-    if parts.len() == 1 { 0 } else { (65536.0 / (parts.len() as f64).sqrt()) as u64 }
+/// Returns a power below 1 of a number. Roots are the same on all machines, other powers are not.
+fn power(number: f64, eighths: u32) -> f64 {
+    let root = number.sqrt();
+    let factors = [(4, root), (2, root.sqrt()), (1, root.sqrt().sqrt())];
+    factors.iter().filter(|(part, _)| eighths & part != 0).map(|(_, factor)| factor).product()
 }
 
 #[cfg(test)]

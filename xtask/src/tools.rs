@@ -19,6 +19,14 @@ pub fn to_javascript(module: &Path, script: &Path, options: &[&str]) -> Result {
     shell::run(wasm2js.arg("-o").arg(script))
 }
 
+/// Optimises a wasm module in place with Binaryen's wasm-opt. At this level it does no more than what
+/// makes a module smaller also when it is compressed.
+pub fn optimize(module: &Path) -> Result {
+    let mut wasm_opt = shell::command("node");
+    wasm_opt.arg(install()?.join("binaryen/bin/wasm-opt")).arg(module);
+    shell::run(wasm_opt.args(["-O1", "--all-features", "-o"]).arg(module))
+}
+
 /// Writes a smaller script with esbuild. `option` is `--minify`, which also shortens all names that
 /// are not exported, or `--minify-whitespace`, which keeps names.
 pub fn minify(script: &Path, small: &Path, option: &str) -> Result {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use wasm_bindgen_cli_support::Bindgen;
 
 use crate::failure::{During, Result};
-use crate::{c, files, function_order, setup, shell, traps};
+use crate::{c, files, function_order, setup, shell, tools, traps};
 
 /// The Rust target of pages.
 pub const TARGET: &str = "wasm32-unknown-unknown";
@@ -52,11 +52,11 @@ pub fn build(package: &str, dir: &Path, name: &str) -> Result {
     write(&mut bindgen, dir, name).during(during)
 }
 
-/// Writes `name_bg.wasm` and `name_bg.js` into `dir`, with traps instead of panics, and with
-/// similar functions next to each other. The script receives
+/// Writes `name_bg.wasm` and `name_bg.js` into `dir`, with traps instead of panics, if wanted
+/// optimised by Binaryen, and with similar functions next to each other. The script receives
 /// the exports of the module from its caller, so that JavaScript can replace the module; it needs
 /// neither reference types nor multiple results.
-pub fn bind(module: &Path, dir: &Path, name: &str) -> Result {
+pub fn bind(module: &Path, dir: &Path, name: &str, is_optimized: bool) -> Result {
     let during = || format!("binding {}", module.display());
     let mut bytes = traps::from_panics(&std::fs::read(module).during(during)?)?;
     for feature in ["reference-types", "multivalue"] {
@@ -66,6 +66,9 @@ pub fn bind(module: &Path, dir: &Path, name: &str) -> Result {
     bindgen.bundler(true).during(during)?.input_bytes(name, bytes);
     write(&mut bindgen, dir, name).during(during)?;
     let module = dir.join(format!("{name}_bg.wasm"));
+    if is_optimized {
+        tools::optimize(&module)?;
+    }
     let bytes = std::fs::read(&module).during(during)?;
     std::fs::write(&module, function_order::in_module(&bytes)?).during(during)
 }
