@@ -26,7 +26,7 @@ use crate::state::colliders::ColliderBody;
 use glam::Vec3;
 
 /// The largest number of times that what one collider pushed into another is pushed out again.
-const MAX_REPEATS: u32 = 4;
+const MAX_REPEATS: u32 = 7;
 
 /// The largest number of steps in which particles leave a crease.
 const MAX_CREASE_STEPS: u32 = 20;
