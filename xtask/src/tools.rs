@@ -19,12 +19,18 @@ pub fn to_javascript(module: &Path, script: &Path, options: &[&str]) -> Result {
     shell::run(wasm2js.arg("-o").arg(script))
 }
 
+/// The features of wasm that the compiler uses.
+const FEATURES: [&str; 5] =
+    ["simd", "bulk-memory", "sign-ext", "nontrapping-float-to-int", "mutable-globals"];
+
 /// Optimises a wasm module in place with Binaryen's wasm-opt. At this level it does no more than what
-/// makes a module smaller also when it is compressed.
+/// makes a module smaller also when it is compressed. Of the features of wasm it may use those that the
+/// compiler uses.
 pub fn optimize(module: &Path) -> Result {
     let mut wasm_opt = shell::command("node");
     wasm_opt.arg(install()?.join("binaryen/bin/wasm-opt")).arg(module);
-    shell::run(wasm_opt.args(["-O1", "--all-features", "-o"]).arg(module))
+    wasm_opt.args(["-O1", "--mvp-features"]).args(FEATURES.map(|name| format!("--enable-{name}")));
+    shell::run(wasm_opt.arg("-o").arg(module))
 }
 
 /// Writes a smaller script with esbuild. `option` is `--minify`, which also shortens all names that
