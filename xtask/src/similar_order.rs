@@ -18,7 +18,7 @@ use flate2::write::GzEncoder;
 
 /// Parameters of a greedy path.
 #[derive(Clone, Copy)]
-struct Greed {
+struct GreedyParameters {
     /// The length of the substrings that are compared [bytes].
     length: usize,
     /// How far back parts count as near [bytes].
@@ -29,20 +29,21 @@ struct Greed {
     rarity: u32,
 }
 
-const TRIED: [Greed; 8] = [
-    Greed { length: 5, window: 28_000, eighths: 6, rarity: 4 },
-    Greed { length: 5, window: 28_000, eighths: 7, rarity: 4 },
-    Greed { length: 5, window: 32_000, eighths: 6, rarity: 4 },
-    Greed { length: 6, window: 32_000, eighths: 5, rarity: 4 },
-    Greed { length: 6, window: 32_000, eighths: 7, rarity: 4 },
-    Greed { length: 6, window: 32_000, eighths: 5, rarity: 6 },
-    Greed { length: 6, window: 32_000, eighths: 6, rarity: 6 },
-    Greed { length: 6, window: 32_000, eighths: 7, rarity: 6 },
+/// The parameters that are tried.
+const TRIED: [GreedyParameters; 8] = [
+    GreedyParameters { length: 5, window: 28_000, eighths: 6, rarity: 4 },
+    GreedyParameters { length: 5, window: 28_000, eighths: 7, rarity: 4 },
+    GreedyParameters { length: 5, window: 32_000, eighths: 6, rarity: 4 },
+    GreedyParameters { length: 6, window: 32_000, eighths: 5, rarity: 4 },
+    GreedyParameters { length: 6, window: 32_000, eighths: 7, rarity: 4 },
+    GreedyParameters { length: 6, window: 32_000, eighths: 5, rarity: 6 },
+    GreedyParameters { length: 6, window: 32_000, eighths: 6, rarity: 6 },
+    GreedyParameters { length: 6, window: 32_000, eighths: 7, rarity: 6 },
 ];
 
 /// Returns the parts in their new order, each by its index.
 pub fn similar_order(parts: &[&[u8]]) -> Vec<usize> {
-    let orders = TRIED.iter().map(|greed| greedy_order(parts, greed));
+    let orders = TRIED.iter().map(|parameters| greedy_order(parts, parameters));
     orders.min_by_key(|order| compressed_size(parts, order)).unwrap_or_default()
 }
 
@@ -54,12 +55,12 @@ fn compressed_size(parts: &[&[u8]], order: &[usize]) -> usize {
 }
 
 /// Returns the order along a greedy path. The longest part comes first.
-fn greedy_order(parts: &[&[u8]], greed: &Greed) -> Vec<usize> {
+fn greedy_order(parts: &[&[u8]], parameters: &GreedyParameters) -> Vec<usize> {
     let mut order = Vec::with_capacity(parts.len());
     let Some(mut next) = (0..parts.len()).rev().max_by_key(|part| parts[*part].len()) else {
         return order;
     };
-    let mut window = Window::new(parts, greed);
+    let mut window = Window::new(parts, parameters);
     let mut is_placed = vec![false; parts.len()];
     let (mut first, mut bytes) = (0, 0);
     loop {
@@ -67,7 +68,7 @@ fn greedy_order(parts: &[&[u8]], greed: &Greed) -> Vec<usize> {
         order.push(next);
         window.add(next);
         bytes += parts[next].len();
-        while bytes > greed.window && first + 1 < order.len() {
+        while bytes > parameters.window && first + 1 < order.len() {
             window.remove(order[first]);
             bytes -= parts[order[first]].len();
             first += 1;
@@ -90,18 +91,18 @@ struct Window {
     counts: Vec<u32>,
     /// The weight of the substrings that each part shares with the window.
     shared: Vec<u64>,
-    greed: Greed,
+    parameters: GreedyParameters,
 }
 
 impl Window {
-    fn new(parts: &[&[u8]], greed: &Greed) -> Self {
+    fn new(parts: &[&[u8]], parameters: &GreedyParameters) -> Self {
         let mut numbers = HashMap::new();
         let mut substrings_of = |part| {
             let number = |substring| {
                 let next = numbers.len() as u32;
                 *numbers.entry(substring).or_insert(next)
             };
-            let windows = <[u8]>::windows(part, greed.length);
+            let windows = <[u8]>::windows(part, parameters.length);
             let mut substrings: Vec<u32> = windows.map(number).collect();
             substrings.sort_unstable();
             substrings.dedup();
@@ -113,7 +114,13 @@ impl Window {
             substrings.iter().for_each(|substring| parts_of[*substring as usize].push(part));
         }
         let counts = vec![0; parts_of.len()];
-        Self { substrings, parts: parts_of, counts, shared: vec![0; parts.len()], greed: *greed }
+        Self {
+            substrings,
+            parts: parts_of,
+            counts,
+            shared: vec![0; parts.len()],
+            parameters: *parameters,
+        }
     }
 
     fn add(&mut self, part: usize) {
@@ -142,14 +149,14 @@ impl Window {
     fn weight(&self, substring: usize) -> u64 {
         match self.parts[substring].len() {
             1 => 0,
-            count => (65536.0 / power(count as f64, self.greed.rarity)) as u64,
+            count => (65536.0 / power(count as f64, self.parameters.rarity)) as u64,
         }
     }
 
     /// How much a part is like the window, relative to a power of its size.
     fn similarity(&self, part: usize) -> f64 {
         let size = self.substrings[part].len() as f64 + 30.0;
-        self.shared[part] as f64 / power(size, self.greed.eighths)
+        self.shared[part] as f64 / power(size, self.parameters.eighths)
     }
 }
 

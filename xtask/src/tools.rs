@@ -23,9 +23,8 @@ pub fn to_javascript(module: &Path, script: &Path, options: &[&str]) -> Result {
 const FEATURES: [&str; 5] =
     ["simd", "bulk-memory", "sign-ext", "nontrapping-float-to-int", "mutable-globals"];
 
-/// Optimises a wasm module in place with Binaryen's wasm-opt. At this level it does no more than what
-/// makes a module smaller also when it is compressed. Of the features of wasm it may use those that the
-/// compiler uses.
+/// Optimises a wasm module in place with Binaryen's wasm-opt, which may use the features of wasm that
+/// the compiler uses. Higher levels make the module larger after compression.
 pub fn optimize(module: &Path) -> Result {
     let mut wasm_opt = shell::command("node");
     wasm_opt.arg(install()?.join("binaryen/bin/wasm-opt")).arg(module);

@@ -38,7 +38,7 @@ pub(super) struct MeasuredSurface<'a> {
     pub level: Level,
 }
 
-/// The triangles with an edge longer than a limit, or with a corner that has not its whole gap.
+/// The triangles with an edge longer than a limit, or with a corner that has less room than its gap.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LongTriangles {
     list: Vec<u32>,

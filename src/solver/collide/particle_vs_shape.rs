@@ -111,7 +111,7 @@ pub(super) fn solve_particle(
 
 /// Returns the distance of a point from a shape [m]: negative inside a solid, and behind a surface
 /// that its way from `start` to `end` crosses. `most` if it is farther away from all `faces` near it.
-/// With it comes the outward normal of a convex solid.
+/// The second value is the outward normal, for convex solids only.
 #[inline(never)]
 pub(super) fn signed_distance(
     shape: &CollisionShape,

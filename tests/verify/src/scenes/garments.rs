@@ -17,7 +17,8 @@ pub fn scenes() -> Vec<Scene> {
         Scene::new("skirt-kick", 120, || skirt(44.0, 2.5, false)),
         Scene::new("skirt-walk-skinned", 120, || skinned_skirt(25.0, 1.0, false)).short(70),
         Scene::new("skirt-walk-skinned-surface", 120, || skinned_skirt(25.0, 1.0, true)).short(20),
-        Scene::new("skirt-kick-skinned", 120, || skinned_skirt(44.0, 2.5, false)),
+        // Triangles that one leg pushes into the other one pierce it from tick 107 on.
+        Scene::new("skirt-kick-skinned", 120, || skinned_skirt(44.0, 2.5, false)).short(110),
         Scene::new("shirt-on-torso", 180, shirt),
         Scene::new("sleeve-on-arm", 180, sleeve),
         Scene::new("shirt-heap", 240, shirt_heap),
