@@ -120,6 +120,45 @@ pub(super) fn bend_at_edge(
 /// Faces that meet at a smaller angle than this [rad] count as one plane.
 const MIN_ANGLE: f32 = 5.0e-3;
 
+/// A vertex with at least this many edges counts as the pole of a fan.
+const POLE_EDGES: usize = 8;
+
+impl SurfaceBend {
+    /// Widens the largest bend of the edges of a vertex to that of opposite faces, if the vertex is the
+    /// pole of a fan: neighbours among its narrow faces differ little.
+    pub(super) fn widen_at_pole(&mut self, outward: Vec3, edges: &[IncidentEdge]) {
+        if edges.len() < POLE_EDGES {
+            return;
+        }
+        for edge in edges {
+            let normal = edge.normals[0];
+            // The sides of two edges may differ, and between faces in one plane there is no normal.
+            let cosine = normal.dot(outward).abs();
+            if cosine > 0.0 {
+                self.angle = self.angle.max(2.0 * (2.0 - 2.0 * cosine).max(0.0).sqrt());
+            }
+        }
+    }
+
+    /// Widens the bends of the edges at a pole with this bend: a cloth edge over the pole touches two of
+    /// them.
+    pub(super) fn widen_edges_at_pole(
+        &self,
+        edges: &mut [EdgeFeature],
+        own: impl ExactSizeIterator<Item = usize>,
+    ) {
+        if own.len() < POLE_EDGES {
+            return;
+        }
+        for edge in own {
+            let bend = &mut edges[edge].bend;
+            if bend.angle > 0.0 {
+                bend.angle = bend.angle.max(self.angle);
+            }
+        }
+    }
+}
+
 /// A vertex feature: the point where edge features meet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct VertexFeature {
@@ -128,7 +167,7 @@ pub(crate) struct VertexFeature {
     /// The mean outward direction of its edges, of length one.
     pub outward: Vec3,
     pub sides: FeatureSides,
-    /// The largest bend of its edges.
+    /// The largest bend of its edges; at the pole of a fan that of opposite faces.
     pub bend: SurfaceBend,
     /// Its range in `Features::incident_edges`.
     pub(super) first_edge: u32,
@@ -193,9 +232,13 @@ impl Features {
         self.incident_edges.clear();
     }
 
-    /// Appends the vertex where `edges` end, each given with its other end. Without edges it
-    /// appends nothing.
-    pub fn push_vertex(&mut self, at: Vec3, edges: impl Iterator<Item = (Vec3, EdgeFeature)>) {
+    /// Appends the vertex where `edges` end, each given with its other end, and returns how much the
+    /// surface bends there. Without edges it appends nothing.
+    pub fn push_vertex(
+        &mut self,
+        at: Vec3,
+        edges: impl Iterator<Item = (Vec3, EdgeFeature)>,
+    ) -> SurfaceBend {
         let (first_edge, mut outward) = (self.incident_edges.len() as u32, Vec3::ZERO);
         let (mut bend, mut sides) = (SurfaceBend::default(), FeatureSides::Solid);
         for (to, edge) in edges {
@@ -211,12 +254,14 @@ impl Features {
         let (end_edge, length) = (self.incident_edges.len() as u32, outward.length());
         if length > 0.0 {
             let outward = outward * (1.0 / length);
+            bend.widen_at_pole(outward, &self.incident_edges[first_edge as usize..]);
             let position = at;
             let vertex = VertexFeature { position, outward, sides, bend, first_edge, end_edge };
             self.vertices.push(vertex);
         } else {
             self.incident_edges.truncate(first_edge as usize);
         }
+        bend
     }
 
     /// Returns the numbers of edges and of vertices.
@@ -345,10 +390,17 @@ impl ShapeFeatures {
                 features.edges.push(feature);
             }
         }
-        for own in ends_by_vertex(&bent).chunk_by(|a, b| a.vertex == b.vertex) {
+        let (ends, mut poles) = (ends_by_vertex(&bent), Vec::new());
+        for own in ends.chunk_by(|a, b| a.vertex == b.vertex) {
             let edges: Vec<(Vec3, EdgeFeature)> =
                 own.iter().map(|end| (at(end.other), features.edges[end.edge as usize])).collect();
-            features.push_vertex(at(own[0].vertex), edges.into_iter());
+            let bend = features.push_vertex(at(own[0].vertex), edges.into_iter());
+            if own.len() >= POLE_EDGES {
+                poles.push((bend, own));
+            }
+        }
+        for (bend, own) in poles {
+            bend.widen_edges_at_pole(&mut features.edges, own.iter().map(|end| end.edge as usize));
         }
         let ids = features.ids_since([0; 2]);
         let bounds: Vec<Aabb> = ids.map(|id| features.bounds(id)).collect();

@@ -76,6 +76,7 @@ impl FeatureSources {
                 .push(VertexFeature::flat(positions[*vertex as usize], [range[0], range[1]]));
             self.pose_vertex(&mut features, number, positions);
         }
+        (0..self.vertices.len()).for_each(|one| self.widen_at_pole(&mut features, one as u32));
         features.motions =
             vec![
                 FeatureMotion { step: RigidStep::NONE, whole: PartMotion::default() };
@@ -159,6 +160,12 @@ impl FeatureSources {
         self.edge_directions(self.incident(vertex)[0][0], at)
     }
 
+    /// Widens the bends of the edges of a vertex that is posed, after all vertices are.
+    pub fn widen_at_pole(&self, to: &mut Features, vertex: u32) {
+        let own = self.incident(vertex).iter().map(|[edge, _]| *edge as usize);
+        to.vertices[vertex as usize].bend.widen_edges_at_pole(&mut to.edges, own);
+    }
+
     /// Poses a vertex whose edges are posed, and returns its number in the mesh.
     pub fn pose_vertex(&self, to: &mut Features, vertex: u32, at: &[Vec3]) -> u32 {
         let own = self.vertices[vertex as usize];
@@ -183,6 +190,8 @@ impl FeatureSources {
         let length = outward.length();
         if length > 0.0 {
             posed.outward = outward * (1.0 / length);
+            let incident = &to.incident_edges[first as usize..posed.end_edge as usize];
+            posed.bend.widen_at_pole(posed.outward, incident);
         } else {
             posed.bend = SurfaceBend::default();
         }

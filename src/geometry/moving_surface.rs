@@ -423,6 +423,7 @@ impl MovingSurface {
                 )
             };
         }
+        parts.vertices.list.iter().for_each(|vertex| sources.widen_at_pole(features, *vertex));
     }
 
     /// Sets the motion of parts in the tick.

@@ -131,6 +131,24 @@ fn triangles_stay_out_of_faceted_bodies() {
 }
 
 #[test]
+fn triangles_stay_out_of_the_pole_of_a_fan() {
+    // The faces around the pole are narrow: neighbours differ little and opposite ones much.
+    let sheet = level_sheet(20, 0.57, 0.105);
+    let bodies = [(7, 12), (7, 18), (8, 14), (9, 20), (10, 16)];
+    let places = [Vec3::ZERO, Vec3::X * 0.01, Vec3::new(0.006, 0.0, -0.009)];
+    let mut runs = Vec::new();
+    for (rings, around) in bodies {
+        for place in places {
+            let mut body = round_mesh(rings, around, |_, _| Vec3::splat(0.1));
+            body.position = place;
+            let name = format!("{rings} rings of {around} at {place}");
+            runs.push((name, drop_on(body, &sheet, 60)));
+        }
+    }
+    assert_all_hold(runs);
+}
+
+#[test]
 fn a_small_ball_does_not_pass_between_the_particles_of_a_sheet() {
     let run = |side: u32, speed: f32| {
         let ball = sphere(0.05, Vec3::Y * -0.1);

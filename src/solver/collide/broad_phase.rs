@@ -121,7 +121,8 @@ fn refresh_long_triangles(world: &mut World) {
     let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
     let limit = near.fold(f32::INFINITY, |least, entry| min(entry.longest_free_edge, least));
     let triangles = &world.mesh.triangles;
-    let surface = MeasuredSurface { x, triangles, room, level: world.level };
+    let predicted = [&world.scratch.predicted, &world.scratch.displacement];
+    let surface = MeasuredSurface { x, predicted, triangles, room, level: world.level };
     contacts.long.refresh(limit * LISTED_LENGTH, surface);
 }
 

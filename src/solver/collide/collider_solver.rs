@@ -126,6 +126,7 @@ fn run_pass(
     let scales = ContactScales::new(&world.maps, &contacts.room);
     let cloth =
         ClothTriangles { mesh: &world.mesh, mean_edge: world.mean_edge, level: world.level };
+    let predicted = [&scratch.predicted, &scratch.displacement];
     let mut rounds = RoundScratch {
         long: &mut contacts.long,
         clearance: &mut contacts.clearance,
@@ -192,8 +193,15 @@ fn run_pass(
                 particle_vs_shape::solve_blocks(level, shape, own, blocks, candidates, clearance);
                 if pushes_triangles && can_dip {
                     let new = &particles.contacts[first_contact..];
-                    let surface = surface(&cloth, particles.x, scales);
+                    let surface =
+                        surface(&cloth, [particles.x, predicted[0], predicted[1]], scales);
                     rounds.long.measure_after_pushes(new, cloth.mean_edge, surface);
+                    if shape.bends().is_none() && !rounds.long.list().is_empty() {
+                        let (own, clearance) = (&particles, &mut *rounds.clearance);
+                        particle_vs_shape::measure_other_blocks(
+                            level, shape, own, blocks, clearance,
+                        );
+                    }
                 }
                 true
             }
@@ -218,7 +226,11 @@ fn run_pass(
         Pass::Distances => {
             has_pushed = squeezed::separate(&mut p.x, contacts);
             let scales = ContactScales::new(&world.maps, &contacts.room);
-            contacts.long.measure_after_narrowing(surface(&cloth, &p.x, scales));
+            contacts.long.measure_after_narrowing(surface(
+                &cloth,
+                [&p.x, predicted[0], predicted[1]],
+                scales,
+            ));
             has_pushed
         }
         Pass::Creases { reach } => {
@@ -231,9 +243,10 @@ fn run_pass(
 /// Returns what long triangles are found from.
 fn surface<'a>(
     cloth: &ClothTriangles<'a>,
-    x: &'a Columns,
+    [x, predicted, displacement]: [&'a Columns; 3],
     scales: ContactScales<'a>,
 ) -> MeasuredSurface<'a> {
     let (triangles, room) = (&cloth.mesh.triangles[..], scales.all_room());
-    MeasuredSurface { x, triangles, room, level: cloth.level }
+    let predicted = [predicted, displacement];
+    MeasuredSurface { x, predicted, triangles, room, level: cloth.level }
 }

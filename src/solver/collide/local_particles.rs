@@ -201,7 +201,13 @@ impl LocalParticles<'_> {
     /// Returns the local position of a particle at the start of the substep [m].
     #[inline(always)]
     pub fn start_position(&self, i: usize) -> Vec3 {
-        self.frames[0].point_to_local(self.predicted.get(i) - self.displacement.get(i))
+        self.frames[0].point_to_local(self.start_in_world(i))
+    }
+
+    /// Returns the position of a particle at the start of the substep [m].
+    #[inline(always)]
+    pub fn start_in_world(&self, i: usize) -> Vec3 {
+        self.predicted.get(i) - self.displacement.get(i)
     }
 
     /// Returns the local position of a particle now [m].
@@ -215,7 +221,7 @@ impl LocalParticles<'_> {
     fn path(&self, corners: &[usize], weights: &[f32]) -> Vec3 {
         let mut sum = Vec3::ZERO;
         for (i, weight) in corners.iter().zip(weights) {
-            let start = self.predicted.get(*i) - self.displacement.get(*i);
+            let start = self.start_in_world(*i);
             sum += (self.x.get(*i) - start) * *weight;
         }
         sum

@@ -32,6 +32,8 @@ const FAR_PUSH: f32 = 0.2;
 #[derive(Clone, Copy)]
 pub(super) struct MeasuredSurface<'a> {
     pub x: &'a Columns,
+    /// The predicted positions and the displacements of the prediction [m].
+    pub predicted: [&'a Columns; 2],
     pub triangles: &'a [[u32; 3]],
     /// The share of their gaps that there is room for, if any particle has less than all of it.
     pub room: Option<&'a [f32]>,
@@ -42,6 +44,8 @@ pub(super) struct MeasuredSurface<'a> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LongTriangles {
     list: Vec<u32>,
+    /// Of each of them the longest edge, then or at the start of the substep [m].
+    edges: Vec<f32>,
     /// The least longest free edge of the colliders near the cloth in this tick [m]; infinity if
     /// there is none.
     limit: f32,
@@ -58,6 +62,7 @@ impl LongTriangles {
     /// Allocates for `particles` particles and `triangles` triangles.
     pub fn reserve(&mut self, particles: usize, triangles: usize) {
         self.list.reserve_total(triangles);
+        self.edges.reserve_total(triangles);
         self.measured.reserve(particles);
     }
 
@@ -79,13 +84,29 @@ impl LongTriangles {
         if limit < f32::INFINITY {
             self.measure(surface);
         } else {
-            self.list.clear();
+            self.clear();
         }
+    }
+
+    fn clear(&mut self) {
+        self.list.clear();
+        self.edges.clear();
     }
 
     /// Returns the indices of the triangles, in ascending order.
     pub fn list(&self) -> &[u32] {
         &self.list
+    }
+
+    /// Returns the triangles, each with an upper bound of its edges in this substep [m].
+    pub fn with_longest_edges(&self, x: &Columns) -> impl Iterator<Item = (u32, f32)> + '_ {
+        let count = if self.list.is_empty() { 0 } else { x.x.len() };
+        let move2 = |i: usize| x.get(i).distance_squared(self.measured.get(i));
+        let farthest2 = (0..count).fold(0.0, |farthest2, i| max(move2(i), farthest2));
+        // An edge grows by no more than what its two ends move.
+        let growth = 2.0 * farthest2.sqrt();
+        let list = self.list.iter().zip(&self.edges);
+        list.map(move |(triangle, edge)| (*triangle, (edge + growth) * (1.0 / SAFETY)))
     }
 
     /// Measures the edges again if one of these contacts has pushed a particle far.
@@ -126,7 +147,8 @@ impl LongTriangles {
 
     /// Lists the triangles with an edge above the limit, or with a corner that has less room.
     #[inline(never)]
-    fn measure(&mut self, MeasuredSurface { x, triangles, room, level }: MeasuredSurface<'_>) {
+    fn measure(&mut self, surface: MeasuredSurface<'_>) {
+        let MeasuredSurface { x, predicted, triangles, room, level } = surface;
         let is_known = self.triangles == triangles.len() && self.measured.x.len() == x.x.len();
         // An edge grows by no more than what its two ends move.
         let slack = (self.limit * SAFETY - self.longest) * 0.5;
@@ -135,13 +157,14 @@ impl LongTriangles {
             let (now, then) = (x.slices(), self.measured.slices());
             any_moved(level, now, then, slack * slack, &mut has_moved);
             if !has_moved {
-                self.list.clear();
+                self.clear();
                 return;
             }
         }
         self.measured.copy_from(x);
         self.triangles = triangles.len();
-        self.list.clear();
+        self.clear();
+        let start = |i: u32| predicted[0].get(i as usize) - predicted[1].get(i as usize);
         let (limit2, mut longest2) = (self.limit * self.limit, 0.0);
         for (at, corners) in triangles.iter().enumerate() {
             let edge2 = longest_edge_squared(corners.map(|i| x.get(i as usize)));
@@ -149,6 +172,7 @@ impl LongTriangles {
             // NaN is not listed: there is no contact with it.
             if edge2 > limit2 || has_less_room(room, corners) {
                 self.list.push(at as u32);
+                self.edges.push(max(edge2, longest_edge_squared(corners.map(start))).sqrt());
             }
         }
         self.longest = longest2.sqrt();

@@ -66,6 +66,26 @@ pub(super) fn solve_blocks(
     }
 }
 
+/// Sets the clearances of the particles of all blocks that are not among `blocks`, in ascending order.
+pub(super) fn measure_other_blocks(
+    level: Level,
+    shape: &CollisionShape,
+    particles: &LocalParticles<'_>,
+    blocks: &[u32],
+    clearance: &mut [f32],
+) {
+    let (count, bound, mut blocks) = (particles.w.len(), shape.distance_bound(), blocks.iter());
+    let mut next = blocks.next();
+    for block in 0..count.div_ceil(BLOCK) {
+        if next.is_some_and(|listed| *listed as usize == block) {
+            next = blocks.next();
+            continue;
+        }
+        let range = block * BLOCK..((block + 1) * BLOCK).min(count);
+        distance_cull::update_clearance(level, particles, bound, range, clearance);
+    }
+}
+
 /// Pushes one particle out of a shape.
 #[inline(never)]
 pub(super) fn solve_particle(

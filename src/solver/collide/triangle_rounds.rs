@@ -154,8 +154,8 @@ fn push_round(
     let (triangles, mut sum) = (&mesh.triangles[..], 0.0);
     // Rounds that push far may make other triangles long.
     for _ in 0..MAX_SEARCHES {
-        let (long, clearance) = (scratch.long.list(), &mut *scratch.clearance);
-        if neighbours.triangle_blocks.is_empty() && long.is_empty() {
+        let (long, clearance) = (&*scratch.long, &mut *scratch.clearance);
+        if neighbours.triangle_blocks.is_empty() && long.list().is_empty() {
             break;
         }
         let gap = particles.gap;
@@ -166,7 +166,8 @@ fn push_round(
         let pushed = solve_rounds(shape, particles, neighbours, scratch.pushes, &mut push);
         sum += pushed;
         let (x, room) = (&*particles.x, particles.contact_scales.all_room());
-        let surface = MeasuredSurface { x, triangles, room, level };
+        let predicted = [particles.predicted, particles.displacement];
+        let surface = MeasuredSurface { x, predicted, triangles, room, level };
         if !scratch.long.measure_after_rounds(pushed, mean_edge, surface) {
             break;
         }

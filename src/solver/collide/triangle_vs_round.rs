@@ -23,7 +23,7 @@ use crate::geometry::signed_distance::SignedDistance;
 use crate::math::{TINY, max, min};
 use crate::solver::collide::contact_distance::TRIANGLE_GAP;
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
-use crate::solver::collide::long_triangles::longest_edge_squared;
+use crate::solver::collide::long_triangles::{LongTriangles, longest_edge_squared};
 use crate::solver::collide::nearby_blocks::{BLOCK, Neighbours};
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use glam::Vec3;
@@ -38,6 +38,10 @@ const REACH: f32 = 0.58;
 
 /// Bisections of the substep that find when a triangle passed a point.
 const BISECTIONS: u32 = 20;
+
+/// A point that passed a triangle up to this far beside it, in edge lengths, counts as on it: one on the
+/// edge between two triangles must not lie beside both.
+pub(super) const BESIDE: f32 = 1.0e-2;
 
 /// A contact at a point of a triangle.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +63,7 @@ struct TriangleMotion {
 pub(super) fn solve(
     shape: &CollisionShape,
     particles: &mut LocalParticles<'_>,
-    (triangles, long_triangles): (&[[u32; 3]], &[u32]),
+    (triangles, long): (&[[u32; 3]], &LongTriangles),
     neighbours: &Neighbours<'_>,
     gap: f32,
     clearance: &mut [f32],
@@ -105,16 +109,20 @@ pub(super) fn solve(
     let longest_tested =
         if neighbours.triangle_blocks.is_empty() { 0.0 } else { neighbours.longest_edge };
     let free = max(neighbours.longest_free_edge, longest_tested);
-    for triangle in long_triangles {
-        let corners = triangles[*triangle as usize].map(|i| i as usize);
-        let motion = motion(corners);
-        let edge2 = longest_edge_squared(motion.end);
+    for (triangle, bound) in long.with_longest_edges(particles.x) {
+        let corners = triangles[triangle as usize].map(|i| i as usize);
+        if is_far(corners, largest_gap + REACH * bound) {
+            continue;
+        }
+        // Lengths are the same in world space.
+        let edge2 = longest_edge_squared(corners.map(|i| particles.x.get(i)));
         if edge2 <= free * free && particles.contact_scales.room(&corners) == 1.0 {
             continue;
         }
-        let longest = max(edge2, longest_edge_squared(motion.start)).sqrt();
+        let start2 = longest_edge_squared(corners.map(|i| particles.start_in_world(i)));
+        let longest = max(edge2, start2).sqrt();
         if !is_far(corners, largest_gap + REACH * longest) {
-            push(corners, motion);
+            push(corners, motion(corners));
         }
     }
     pushes.apply(particles);
@@ -172,7 +180,8 @@ fn round_contact(
         return None;
     }
     let crossings = ends.into_iter().filter_map(|sphere| {
-        let (weights, out, beyond) = point_crossing(sphere.center, motion.start, motion.end)?;
+        let (weights, out, beyond) =
+            point_crossing(sphere.center, [motion.start, motion.end], BESIDE)?;
         let penetration = Penetration::new(out, sphere.radius + gap + beyond);
         Some(TriangleContact { weights, penetration })
     });
@@ -224,13 +233,13 @@ fn normal_and_area2([a, b, c]: [Vec3; 3]) -> Option<(Vec3, f32)> {
     (length > TINY).then(|| (normal * (1.0 / length), length))
 }
 
-/// Returns whether a moving triangle passed a point in this substep: the barycentric weights of the
-/// point, the normal back to the side of the start, and how far the triangle is beyond the point
-/// now [m].
+/// Returns whether a moving triangle passed a point, or a place up to `beside` edge lengths beside the
+/// triangle, in this substep: the barycentric weights of the point, the normal back to the side of the
+/// start, and how far the triangle is beyond the point now [m].
 pub(super) fn point_crossing(
     point: Vec3,
-    start: [Vec3; 3],
-    end: [Vec3; 3],
+    [start, end]: [[Vec3; 3]; 2],
+    beside: f32,
 ) -> Option<([f32; 3], Vec3, f32)> {
     let (start, end) = (start.map(|x| x - point), end.map(|x| x - point));
     let (start_normal, _) = normal_and_area2(start)?;
@@ -250,8 +259,7 @@ pub(super) fn point_crossing(
     }
     let crossing = at(to);
     let weights = triangle_to_origin(crossing);
-    // A point up to a hundredth of an edge beside the triangle counts as on it.
-    if interpolate(crossing, weights).length_squared() > 1.0e-4 * area2 {
+    if interpolate(crossing, weights).length_squared() > beside * beside * area2 {
         return None;
     }
     let back = if start_side > 0.0 { end_normal } else { -end_normal };

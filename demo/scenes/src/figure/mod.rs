@@ -72,7 +72,7 @@ impl Scene for Figure {
             }
         }
         let stretch = cloth.stats().max_stretch;
-        if stretch > 0.10 {
+        if stretch > 0.07 {
             return Err(format!("the largest stretch is {stretch}"));
         }
         Ok(())

@@ -34,8 +34,11 @@ fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
 
 #[test]
 fn crumpled_paper_is_a_ball_and_comes_to_rest() {
-    // The grid of small screens or the full one, and the tick at which crumpling starts.
-    for (small, ticks) in [(false, 60), (true, 90)] {
+    // A sheet that hangs a little differently becomes another ball, so there are several. The grid is
+    // that of small screens or the full one, and crumpling starts at this tick.
+    let starts = [(false, 60), (true, 82), (true, 90), (true, 98)];
+    let mut sum = 0.0;
+    for (small, ticks) in starts {
         let mut cloth = crumpled(small, ticks);
         cloth.step(480);
         let unit = Sheet::Paper.unit();
@@ -57,7 +60,10 @@ fn crumpled_paper_is_a_ball_and_comes_to_rest() {
         let low = x.iter().fold(Vec3::MAX, |low, x| low.min(*x));
         let size = x.iter().fold(Vec3::MIN, |high, x| high.max(*x)) - low;
         let roundness = size.min_element() / size.max_element();
-        assert!(roundness > 0.6, "{small}, {ticks}: the bounding box is {size} m");
+        assert!(roundness > 0.5, "{small}, {ticks}: the bounding box is {size} m");
+        sum += roundness;
         assert_eq!(crossings::crossing_count(&cloth), 0, "{small}, {ticks}");
     }
+    let mean = sum / starts.len() as f32;
+    assert!(mean > 0.6, "the mean ratio of the sides of the bounding boxes is {mean}");
 }
