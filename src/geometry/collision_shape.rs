@@ -109,7 +109,7 @@ impl CollisionShape {
         match self {
             Self::HalfSpace(_) => DistanceBound::HalfSpace,
             Self::Heightfield(terrain) => DistanceBound::Below(terrain.bounds().high.y),
-            Self::Sphere(sphere) => DistanceBound::Sphere(sphere.radius),
+            Self::Sphere(sphere) => DistanceBound::Capsule(0.0, 0.0, sphere.radius),
             Self::Capsule(capsule) => {
                 let [bottom, top] = capsule.ends();
                 let radius = max(bottom.radius, top.radius);
@@ -133,9 +133,8 @@ pub(crate) enum DistanceBound {
     HalfSpace,
     /// All points below a height [m].
     Below(f32),
-    /// A sphere around the origin of this radius [m].
-    Sphere(f32),
-    /// A capsule along the y axis: y of its middle, from there to the ends of its axis, radius [m].
+    /// A capsule along the y axis: y of its middle, from there to the ends of its axis, radius [m]; a
+    /// sphere around the origin has no axis.
     Capsule(f32, f32, f32),
     /// A box: center and half extents [m].
     Box(Vec3, Vec3),

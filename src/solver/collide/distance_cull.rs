@@ -94,11 +94,6 @@ fn compute_clearance_lanes(
     match bound {
         DistanceBound::HalfSpace => heights_above_plane(block.x, &frames[1], clearance),
         DistanceBound::Below(top) => path_clearances(block, frames, clearance, |_, y, _| y - top),
-        DistanceBound::Sphere(radius) => {
-            path_clearances(block, frames, clearance, |x, y, z| {
-                (x * x + y * y + z * z).sqrt() - radius
-            });
-        }
         DistanceBound::Capsule(middle, half, radius) => {
             path_clearances(block, frames, clearance, |x, y, z| {
                 let y = max((y - middle).abs() - half, 0.0);

@@ -23,7 +23,7 @@ use crate::math::{TINY, max, min};
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
 use crate::solver::collide::mid_phase::{EdgeEdgePair, VertexTrianglePair};
 use crate::solver::collide::push_accumulator::PushAccumulator;
-use crate::solver::collide::triangle_vs_round::{BESIDE, TriangleContact, point_crossing};
+use crate::solver::collide::triangle_vs_round::{TriangleContact, point_crossing};
 use glam::Vec3;
 
 /// How far a normal may lie outside a normal cone (a sine): tolerates rounding. With a larger value
@@ -47,10 +47,6 @@ const FOLD_COSINE: f32 = 0.2;
 /// Cloth that passed through a feature returns to this fraction of the gap on its own side. With the
 /// whole gap it would not come to rest.
 const PASSED_GAP: f32 = 0.5;
-
-/// How far beside a triangle a two-sided vertex may have passed it, in edge lengths. Farther, cloth that
-/// slides over a vertex would count as passed by it at the ridge between two triangles.
-const BESIDE_PASSED: f32 = 1.0e-3;
 
 /// Pairs that are farther apart than this many gaps before the first round are not tested.
 pub(super) const CLOSE_GAPS: f32 = 4.0;
@@ -325,7 +321,7 @@ fn vertex_passage(
     if !vertex.sides.is_two_sided() {
         return None;
     }
-    let (weights, back, depth) = point_crossing(vertex.position, [start, end], BESIDE_PASSED)?;
+    let (weights, back, depth) = point_crossing(vertex.position, start, end)?;
     let penetration = Penetration::new(back, gap * PASSED_GAP + depth);
     Some((corners, TriangleContact { weights, penetration }))
 }
@@ -384,7 +380,7 @@ fn vertex_contact(
         let penetration = depenetration.penetration(normal, gap, start_height, height)?;
         TriangleContact { weights, penetration }
     } else {
-        let (weights, back, _) = point_crossing(vertex.position, [start, end], BESIDE)?;
+        let (weights, back, _) = point_crossing(vertex.position, start, end)?;
         if back.dot(normal) <= 0.0 {
             return None;
         }

@@ -21,7 +21,7 @@ use crate::solver::collide::local_particles::LocalParticles;
 use crate::solver::collide::long_pairs::LongPairs;
 use crate::solver::collide::long_triangles::{LongTriangles, MeasuredSurface};
 use crate::solver::collide::mid_phase::PairSearch;
-use crate::solver::collide::nearby_blocks::{BLOCK, Neighbours};
+use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use crate::solver::collide::{
     edge_vs_feature, long_pairs, mid_phase, particle_vs_shape, triangle_vs_round,
@@ -184,7 +184,6 @@ pub(super) fn mark_pushed_by_others(
     mesh: &Mesh,
     scratch: &mut RoundScratch<'_>,
 ) -> bool {
-    let triangles = &mesh.triangles[..];
     if neighbours.longest_free_edge == f32::INFINITY {
         return false;
     }
@@ -193,21 +192,14 @@ pub(super) fn mark_pushed_by_others(
     clearance.clear();
     clearance.resize(particles.w.len(), f32::INFINITY);
     others.for_each(|contact| clearance[contact.particle as usize] = 0.0);
+    if shape.bends().is_none() {
+        return true;
+    }
     let is_near = |corners: &[u32]| corners.iter().any(|i| clearance[*i as usize] == 0.0);
     let candidates = &neighbours.candidates;
-    let has_pair = || match shape.bends() {
-        Some(_) => {
-            candidates.edges.iter().any(|pair| is_near(&pair.particles))
-                || candidates.vertices.iter().any(|pair| is_near(&pair.particles))
-        }
-        None => neighbours.triangle_blocks.iter().any(|block| {
-            let first = *block as usize * BLOCK;
-            let block = &triangles[first..(first + BLOCK).min(triangles.len())];
-            block.iter().any(|corners| is_near(corners))
-        }),
-    };
-    let is_long_near = |triangle: &u32| is_near(&triangles[*triangle as usize]);
-    scratch.long.list().iter().any(is_long_near) || has_pair()
+    candidates.edges.iter().any(|pair| is_near(&pair.particles))
+        || candidates.vertices.iter().any(|pair| is_near(&pair.particles))
+        || scratch.long.list().iter().any(|at| is_near(&mesh.triangles[*at as usize]))
 }
 
 /// Calls `push`, which pushes triangles out and returns the largest depth [m], until none is too

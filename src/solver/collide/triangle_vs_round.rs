@@ -39,10 +39,6 @@ const REACH: f32 = 0.58;
 /// Bisections of the substep that find when a triangle passed a point.
 const BISECTIONS: u32 = 20;
 
-/// A point that passed a triangle up to this far beside it, in edge lengths, counts as on it: one on the
-/// edge between two triangles must not lie beside both.
-pub(super) const BESIDE: f32 = 1.0e-2;
-
 /// A contact at a point of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TriangleContact {
@@ -149,10 +145,10 @@ fn find_contact(
     match shape {
         CollisionShape::Sphere(sphere) => {
             let sphere = PlacedSphere { center: Vec3::ZERO, radius: sphere.radius };
-            round_contact([sphere; 2], |_| sphere, motion, gap)
+            round_contact([sphere; 2], &|_| sphere, motion, gap)
         }
         CollisionShape::Capsule(capsule) => {
-            round_contact(capsule.ends(), |p| capsule.closest_sphere(p), motion, gap)
+            round_contact(capsule.ends(), &|p| capsule.closest_sphere(p), motion, gap)
         }
         _ => None,
     }
@@ -160,9 +156,10 @@ fn find_contact(
 
 /// Returns the contact of a triangle with the convex hull of two spheres; `closest_sphere` gives
 /// the sphere of the family that is closest to a point.
+#[inline(never)]
 fn round_contact(
     ends: [PlacedSphere; 2],
-    closest_sphere: impl Fn(Vec3) -> PlacedSphere,
+    closest_sphere: &dyn Fn(Vec3) -> PlacedSphere,
     motion: &TriangleMotion,
     gap: f32,
 ) -> Option<TriangleContact> {
@@ -180,8 +177,7 @@ fn round_contact(
         return None;
     }
     let crossings = ends.into_iter().filter_map(|sphere| {
-        let (weights, out, beyond) =
-            point_crossing(sphere.center, [motion.start, motion.end], BESIDE)?;
+        let (weights, out, beyond) = point_crossing(sphere.center, motion.start, motion.end)?;
         let penetration = Penetration::new(out, sphere.radius + gap + beyond);
         Some(TriangleContact { weights, penetration })
     });
@@ -233,13 +229,14 @@ fn normal_and_area2([a, b, c]: [Vec3; 3]) -> Option<(Vec3, f32)> {
     (length > TINY).then(|| (normal * (1.0 / length), length))
 }
 
-/// Returns whether a moving triangle passed a point, or a place up to `beside` edge lengths beside the
-/// triangle, in this substep: the barycentric weights of the point, the normal back to the side of the
-/// start, and how far the triangle is beyond the point now [m].
+/// Returns whether a moving triangle passed a point in this substep: the barycentric weights of the
+/// point, the normal back to the side of the start, and how far the triangle is beyond the point
+/// now [m].
+#[inline(never)]
 pub(super) fn point_crossing(
     point: Vec3,
-    [start, end]: [[Vec3; 3]; 2],
-    beside: f32,
+    start: [Vec3; 3],
+    end: [Vec3; 3],
 ) -> Option<([f32; 3], Vec3, f32)> {
     let (start, end) = (start.map(|x| x - point), end.map(|x| x - point));
     let (start_normal, _) = normal_and_area2(start)?;
@@ -259,7 +256,8 @@ pub(super) fn point_crossing(
     }
     let crossing = at(to);
     let weights = triangle_to_origin(crossing);
-    if interpolate(crossing, weights).length_squared() > beside * beside * area2 {
+    // A point up to a hundredth of an edge beside the triangle counts as on it.
+    if interpolate(crossing, weights).length_squared() > 1.0e-4 * area2 {
         return None;
     }
     let back = if start_side > 0.0 { end_normal } else { -end_normal };
