@@ -4,6 +4,8 @@
 //! Reads and writes bytes or text.
 //! Invariant: nothing but the order and the numbers of functions changes.
 
+use std::ops::Range;
+
 use wasm_encoder::reencode::{Error, Reencode};
 use wasm_encoder::{
     CodeSection, ElementSection, ExportSection, FunctionSection, Module, RawSection, StartSection,
@@ -113,34 +115,65 @@ impl Reencode for Functions<'_> {
     }
 }
 
-/// The start and the end of each function in the output of wasm2js.
-const START: &str = "\n function $";
-const END: &str = "\n }\n";
+/// The start of a function in a script.
+const START: &str = "function ";
 
-/// Returns a script of wasm2js with its functions in an order that compresses better. Functions may
-/// be declared in any order.
+/// Returns the minified output of wasm2js with its functions in an order that compresses better.
+/// Functions may be declared in any order. Those inside of one function of the script move, as all that
+/// were in the module are.
 pub fn in_script(code: &str) -> Result<String> {
-    let (mut functions, mut rest) = (Vec::new(), String::with_capacity(code.len()));
-    let (mut left, mut place) = (code, None);
-    while let Some(start) = left.find(START) {
-        let Some(end) = left[start..].find(END) else {
-            return Err(Failure::new("a function in the output of wasm2js has no end"));
-        };
-        // A function takes the line break before it along, not the one behind.
-        let end = start + end + END.len() - 1;
-        rest += &left[..start];
-        place.get_or_insert(rest.len());
-        functions.push(&left[start..end]);
-        left = &left[end..];
-    }
-    rest += left;
-    let Some(place) = place else {
+    let functions = inner_functions(code)
+        .ok_or_else(|| Failure::new("a string or a block in the output of wasm2js has no end"))?;
+    let Some(first) = functions.first() else {
         return Err(Failure::new("the output of wasm2js has no functions"));
     };
-    let bytes: Vec<_> = functions.iter().map(|function| function.as_bytes()).collect();
-    let ordered: String = similar_order(&bytes).into_iter().map(|at| functions[at]).collect();
-    rest.insert_str(place, &ordered);
-    Ok(rest)
+    let bytes: Vec<_> = functions.iter().map(|range| &code.as_bytes()[range.clone()]).collect();
+    let mut ordered = String::with_capacity(code.len());
+    ordered += &code[..first.start];
+    for place in similar_order(&bytes) {
+        ordered += &code[functions[place].clone()];
+    }
+    let mut end = first.start;
+    for range in &functions {
+        ordered += &code[end.max(first.start)..range.start];
+        end = range.end;
+    }
+    Ok(ordered + &code[end..])
+}
+
+/// Returns where the functions are that lie directly inside of another one. `None` if a string or a block
+/// has no end.
+fn inner_functions(code: &str) -> Option<Vec<Range<usize>>> {
+    let (bytes, mut functions) = (code.as_bytes(), Vec::new());
+    let (mut depth, mut at, mut start) = (0_usize, 0, None);
+    while at < bytes.len() {
+        match bytes[at] {
+            quote @ (b'"' | b'\'' | b'`') => {
+                at += 1;
+                while *bytes.get(at)? != quote {
+                    at += if bytes[at] == b'\\' { 2 } else { 1 };
+                }
+            }
+            b'{' => depth += 1,
+            b'}' => {
+                depth = depth.checked_sub(1)?;
+                if depth == 1
+                    && let Some(start) = start.take()
+                {
+                    functions.push(start..at + 1);
+                }
+            }
+            b'f' if depth == 1 && start.is_none() && code[at..].starts_with(START) => {
+                let before = bytes[at - 1];
+                if !(before.is_ascii_alphanumeric() || b"_$.".contains(&before)) {
+                    start = Some(at);
+                }
+            }
+            _ => {}
+        }
+        at += 1;
+    }
+    (depth == 0).then_some(functions)
 }
 
 #[cfg(test)]
@@ -184,12 +217,13 @@ mod tests {
 
     #[test]
     fn functions_of_a_script_move_and_all_else_stays() {
-        let code = "var a;\n function $0() {\n  b(1);\n }\n var c;\n function $1() {\n  \
-                    b(2); b(3); b(4);\n }\n return {};\n";
-        let ordered = in_script(code).unwrap();
-        let [one, two] =
-            ["\n function $0() {\n  b(1);\n }", "\n function $1() {\n  b(2); b(3); b(4);\n }"];
-        assert_eq!(ordered, format!("var a;{two}{one}\n var c;\n return {{}};\n"));
+        let code = "var a='}';function m(){var b={c:1};function d(){e(1)}var f=\"\\\"{\";\
+                    function g(){if(a){e(2)}e(3);e(4)}return{d:d}}function h(){}";
+        let [one, two] = ["function d(){e(1)}", "function g(){if(a){e(2)}e(3);e(4)}"];
+        let (before, after) =
+            ("var a='}';function m(){var b={c:1};", "var f=\"\\\"{\";return{d:d}}function h(){}");
+        assert_eq!(in_script(code).unwrap(), format!("{before}{two}{one}{after}"));
         assert!(in_script("var a;").is_err());
+        assert!(in_script("function a(){'}").is_err());
     }
 }

@@ -65,8 +65,9 @@ pub fn convert(module: &Path, work: &Path) -> Result<PathBuf> {
     std::fs::remove_file(&inputs).ok(); // it may be missing
     tools::to_javascript(module, &code, &[&FEATURES[..], &OPTIMIZED].concat())?;
     let parts = shorten_constants(&replace_parts(&files::read(&code)?)?);
-    files::write(&code, &function_order::in_script(&parts)?)?;
+    files::write(&code, &parts)?;
     tools::minify(&code, &small, "--minify")?;
+    files::write(&small, &function_order::in_script(&files::read(&small)?)?)?;
     std::fs::write(&inputs, input).during(|| format!("writing {}", inputs.display()))?;
     Ok(small)
 }
