@@ -145,10 +145,10 @@ fn find_contact(
     match shape {
         CollisionShape::Sphere(sphere) => {
             let sphere = PlacedSphere { center: Vec3::ZERO, radius: sphere.radius };
-            round_contact([sphere; 2], &|_| sphere, motion, gap)
+            round_contact([sphere; 2], |_| sphere, motion, gap)
         }
         CollisionShape::Capsule(capsule) => {
-            round_contact(capsule.ends(), &|p| capsule.closest_sphere(p), motion, gap)
+            round_contact(capsule.ends(), |p| capsule.closest_sphere(p), motion, gap)
         }
         _ => None,
     }
@@ -156,10 +156,9 @@ fn find_contact(
 
 /// Returns the contact of a triangle with the convex hull of two spheres; `closest_sphere` gives
 /// the sphere of the family that is closest to a point.
-#[inline(never)]
 fn round_contact(
     ends: [PlacedSphere; 2],
-    closest_sphere: &dyn Fn(Vec3) -> PlacedSphere,
+    closest_sphere: impl Fn(Vec3) -> PlacedSphere,
     motion: &TriangleMotion,
     gap: f32,
 ) -> Option<TriangleContact> {
@@ -232,7 +231,6 @@ fn normal_and_area2([a, b, c]: [Vec3; 3]) -> Option<(Vec3, f32)> {
 /// Returns whether a moving triangle passed a point in this substep: the barycentric weights of the
 /// point, the normal back to the side of the start, and how far the triangle is beyond the point
 /// now [m].
-#[inline(never)]
 pub(super) fn point_crossing(
     point: Vec3,
     start: [Vec3; 3],
