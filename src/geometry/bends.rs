@@ -4,6 +4,8 @@
 //! Reads and writes nothing else.
 //! Invariant: a bend of angle 0 lets in no chord.
 
+use glam::Vec3;
+
 /// How much a surface bends at a feature.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SurfaceBend {
@@ -18,7 +20,34 @@ pub(crate) struct SurfaceBend {
 /// triangle, 1.33, and that of a square cut in two, 1.41 to 2.
 const FACE_SIZE: f32 = 1.5;
 
+/// A vertex with at least this many edges counts as the pole of a fan.
+pub(crate) const POLE_EDGES: usize = 8;
+
 impl SurfaceBend {
+    /// Widens the largest bend of the edges of a vertex to that of opposite faces, if the vertex is the
+    /// pole of a fan: neighbours among its narrow faces differ little. `normals` are those of the faces
+    /// around it, in front of its edges; zero between faces in one plane.
+    pub fn widen_at_pole(&mut self, outward: Vec3, normals: impl ExactSizeIterator<Item = Vec3>) {
+        if normals.len() < POLE_EDGES {
+            return;
+        }
+        for normal in normals {
+            // The sides of two edges may differ.
+            let cosine = normal.dot(outward).abs();
+            if cosine > 0.0 {
+                self.angle = self.angle.max(2.0 * (2.0 - 2.0 * cosine).max(0.0).sqrt());
+            }
+        }
+    }
+
+    /// Widens the bend of an edge at a pole with this bend, unless its faces lie in one plane: a cloth
+    /// edge over the pole touches two such edges.
+    pub fn widen_to(&mut self, pole: Self) {
+        if self.angle > 0.0 {
+            self.angle = self.angle.max(pole.angle);
+        }
+    }
+
     /// Returns how much farther from the faces the ends of a chord of `length` [m] must be, so that
     /// its middle stays as far from the surface as they are [m].
     ///

@@ -20,7 +20,7 @@
 //! only on the triangles.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::bends::{BendHistogram, SurfaceBend};
+use crate::geometry::bends::{BendHistogram, POLE_EDGES, SurfaceBend};
 use crate::geometry::bvh::Bvh;
 use crate::geometry::relative_motion::{PartMotion, PointMotion, RigidStep};
 use crate::geometry::swept_box::SweptBox;
@@ -120,45 +120,6 @@ pub(super) fn bend_at_edge(
 /// Faces that meet at a smaller angle than this [rad] count as one plane.
 const MIN_ANGLE: f32 = 5.0e-3;
 
-/// A vertex with at least this many edges counts as the pole of a fan.
-const POLE_EDGES: usize = 8;
-
-impl SurfaceBend {
-    /// Widens the largest bend of the edges of a vertex to that of opposite faces, if the vertex is the
-    /// pole of a fan: neighbours among its narrow faces differ little.
-    pub(super) fn widen_at_pole(&mut self, outward: Vec3, edges: &[IncidentEdge]) {
-        if edges.len() < POLE_EDGES {
-            return;
-        }
-        for edge in edges {
-            let normal = edge.normals[0];
-            // The sides of two edges may differ, and between faces in one plane there is no normal.
-            let cosine = normal.dot(outward).abs();
-            if cosine > 0.0 {
-                self.angle = self.angle.max(2.0 * (2.0 - 2.0 * cosine).max(0.0).sqrt());
-            }
-        }
-    }
-
-    /// Widens the bends of the edges at a pole with this bend: a cloth edge over the pole touches two of
-    /// them.
-    pub(super) fn widen_edges_at_pole(
-        &self,
-        edges: &mut [EdgeFeature],
-        own: impl ExactSizeIterator<Item = usize>,
-    ) {
-        if own.len() < POLE_EDGES {
-            return;
-        }
-        for edge in own {
-            let bend = &mut edges[edge].bend;
-            if bend.angle > 0.0 {
-                bend.angle = bend.angle.max(self.angle);
-            }
-        }
-    }
-}
-
 /// A vertex feature: the point where edge features meet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct VertexFeature {
@@ -254,7 +215,8 @@ impl Features {
         let (end_edge, length) = (self.incident_edges.len() as u32, outward.length());
         if length > 0.0 {
             let outward = outward * (1.0 / length);
-            bend.widen_at_pole(outward, &self.incident_edges[first_edge as usize..]);
+            let own = self.incident_edges[first_edge as usize..].iter();
+            bend.widen_at_pole(outward, own.map(|edge| edge.normals[0]));
             let position = at;
             let vertex = VertexFeature { position, outward, sides, bend, first_edge, end_edge };
             self.vertices.push(vertex);
@@ -400,7 +362,7 @@ impl ShapeFeatures {
             }
         }
         for (bend, own) in poles {
-            bend.widen_edges_at_pole(&mut features.edges, own.iter().map(|end| end.edge as usize));
+            own.iter().for_each(|end| features.edges[end.edge as usize].bend.widen_to(bend));
         }
         let ids = features.ids_since([0; 2]);
         let bounds: Vec<Aabb> = ids.map(|id| features.bounds(id)).collect();

@@ -6,7 +6,7 @@
 //! of flat places, which such a mesh lacks, are kept, without a bend.
 
 use crate::geometry::aabb::Aabb;
-use crate::geometry::bends::{BendHistogram, SurfaceBend};
+use crate::geometry::bends::{BendHistogram, POLE_EDGES, SurfaceBend};
 use crate::geometry::bvh::Bvh;
 use crate::geometry::features::{
     EdgeFeature, FeatureMotion, FeatureSides, Features, IncidentEdge, MeshEdge, ShapeFeatures,
@@ -162,8 +162,10 @@ impl FeatureSources {
 
     /// Widens the bends of the edges of a vertex that is posed, after all vertices are.
     pub fn widen_at_pole(&self, to: &mut Features, vertex: u32) {
-        let own = self.incident(vertex).iter().map(|[edge, _]| *edge as usize);
-        to.vertices[vertex as usize].bend.widen_edges_at_pole(&mut to.edges, own);
+        let (bend, own) = (to.vertices[vertex as usize].bend, self.incident(vertex));
+        if own.len() >= POLE_EDGES {
+            own.iter().for_each(|[edge, _]| to.edges[*edge as usize].bend.widen_to(bend));
+        }
     }
 
     /// Poses a vertex whose edges are posed, and returns its number in the mesh.
@@ -190,8 +192,8 @@ impl FeatureSources {
         let length = outward.length();
         if length > 0.0 {
             posed.outward = outward * (1.0 / length);
-            let incident = &to.incident_edges[first as usize..posed.end_edge as usize];
-            posed.bend.widen_at_pole(posed.outward, incident);
+            let own = to.incident_edges[first as usize..posed.end_edge as usize].iter();
+            posed.bend.widen_at_pole(posed.outward, own.map(|edge| edge.normals[0]));
         } else {
             posed.bend = SurfaceBend::default();
         }
