@@ -24,15 +24,15 @@ const FACE_SIZE: f32 = 1.5;
 pub(crate) const POLE_EDGES: usize = 8;
 
 impl SurfaceBend {
-    /// Widens the largest bend of the edges of a vertex to that of opposite faces, if the vertex is the
-    /// pole of a fan: neighbours among its narrow faces differ little. `normals` are those of the faces
-    /// around it, in front of its edges; zero between faces in one plane.
+    /// At the pole of a fan, widens the largest bend of the edges to the bend between opposite faces.
+    /// Neighbouring faces of a fan are narrow, so the angles between them are small. `normals` has a face
+    /// normal for each edge; zero at an edge whose faces lie in one plane.
     pub fn widen_at_pole(&mut self, outward: Vec3, normals: impl ExactSizeIterator<Item = Vec3>) {
         if normals.len() < POLE_EDGES {
             return;
         }
         for normal in normals {
-            // The sides of two edges may differ.
+            // The normals of two edges may point to different sides.
             let cosine = normal.dot(outward).abs();
             if cosine > 0.0 {
                 self.angle = self.angle.max(2.0 * (2.0 - 2.0 * cosine).max(0.0).sqrt());
@@ -40,8 +40,8 @@ impl SurfaceBend {
         }
     }
 
-    /// Widens the bend of an edge at a pole with this bend, unless its faces lie in one plane: a cloth
-    /// edge over the pole touches two such edges.
+    /// Widens the bend of an edge to that of the pole where it ends, unless its faces lie in one plane.
+    /// A cloth edge over the pole touches two such edges.
     pub fn widen_to(&mut self, pole: Self) {
         if self.angle > 0.0 {
             self.angle = self.angle.max(pole.angle);

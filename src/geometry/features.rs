@@ -128,7 +128,7 @@ pub(crate) struct VertexFeature {
     /// The mean outward direction of its edges, of length one.
     pub outward: Vec3,
     pub sides: FeatureSides,
-    /// The largest bend of its edges; at the pole of a fan that of opposite faces.
+    /// The largest bend of its edges; at the pole of a fan the bend between opposite faces.
     pub bend: SurfaceBend,
     /// Its range in `Features::incident_edges`.
     pub(super) first_edge: u32,

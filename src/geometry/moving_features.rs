@@ -160,7 +160,7 @@ impl FeatureSources {
         self.edge_directions(self.incident(vertex)[0][0], at)
     }
 
-    /// Widens the bends of the edges of a vertex that is posed, after all vertices are.
+    /// Widens the bends of the edges at a pole. Call it after all vertices are posed.
     pub fn widen_at_pole(&self, to: &mut Features, vertex: u32) {
         let (bend, own) = (to.vertices[vertex as usize].bend, self.incident(vertex));
         if own.len() >= POLE_EDGES {

@@ -119,8 +119,8 @@ impl Reencode for Functions<'_> {
 const START: &str = "function ";
 
 /// Returns the minified output of wasm2js with its functions in an order that compresses better.
-/// Functions may be declared in any order. Those inside of one function of the script move, as all that
-/// were in the module are.
+/// Functions may be declared in any order. Only functions directly inside another one move: wasm2js puts
+/// all functions of the module there.
 pub fn in_script(code: &str) -> Result<String> {
     let functions = inner_functions(code)
         .ok_or_else(|| Failure::new("a string or a block in the output of wasm2js has no end"))?;
@@ -135,14 +135,14 @@ pub fn in_script(code: &str) -> Result<String> {
     }
     let mut end = first.start;
     for range in &functions {
-        ordered += &code[end.max(first.start)..range.start];
+        ordered += &code[end..range.start];
         end = range.end;
     }
     Ok(ordered + &code[end..])
 }
 
-/// Returns where the functions are that lie directly inside of another one. `None` if a string or a block
-/// has no end.
+/// Returns the places of the functions that lie directly inside another one. `None` if a string or a
+/// block has no end.
 fn inner_functions(code: &str) -> Option<Vec<Range<usize>>> {
     let (bytes, mut functions) = (code.as_bytes(), Vec::new());
     let (mut depth, mut at, mut start) = (0_usize, 0, None);

@@ -193,8 +193,7 @@ fn run_pass(
                 particle_vs_shape::solve_blocks(level, shape, own, blocks, candidates, clearance);
                 if pushes_triangles && can_dip {
                     let new = &particles.contacts[first_contact..];
-                    let surface =
-                        surface(&cloth, [particles.x, predicted[0], predicted[1]], scales);
+                    let surface = surface(&cloth, particles.x, predicted, scales);
                     rounds.long.measure_after_pushes(new, cloth.mean_edge, surface);
                     if shape.bends().is_none() && !rounds.long.list().is_empty() {
                         let (own, clearance) = (&particles, &mut *rounds.clearance);
@@ -226,11 +225,7 @@ fn run_pass(
         Pass::Distances => {
             has_pushed = squeezed::separate(&mut p.x, contacts);
             let scales = ContactScales::new(&world.maps, &contacts.room);
-            contacts.long.measure_after_narrowing(surface(
-                &cloth,
-                [&p.x, predicted[0], predicted[1]],
-                scales,
-            ));
+            contacts.long.measure_after_narrowing(surface(&cloth, &p.x, predicted, scales));
             has_pushed
         }
         Pass::Creases { reach } => {
@@ -243,10 +238,10 @@ fn run_pass(
 /// Returns what long triangles are found from.
 fn surface<'a>(
     cloth: &ClothTriangles<'a>,
-    [x, predicted, displacement]: [&'a Columns; 3],
+    x: &'a Columns,
+    predicted: [&'a Columns; 2],
     scales: ContactScales<'a>,
 ) -> MeasuredSurface<'a> {
     let (triangles, room) = (&cloth.mesh.triangles[..], scales.all_room());
-    let predicted = [predicted, displacement];
     MeasuredSurface { x, predicted, triangles, room, level: cloth.level }
 }

@@ -32,7 +32,8 @@ const FAR_PUSH: f32 = 0.2;
 #[derive(Clone, Copy)]
 pub(super) struct MeasuredSurface<'a> {
     pub x: &'a Columns,
-    /// The predicted positions and the displacements of the prediction [m].
+    /// The predicted positions and the displacements of the prediction [m]: their differences are the
+    /// positions at the start of the substep.
     pub predicted: [&'a Columns; 2],
     pub triangles: &'a [[u32; 3]],
     /// The share of their gaps that there is room for, if any particle has less than all of it.
@@ -44,7 +45,8 @@ pub(super) struct MeasuredSurface<'a> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LongTriangles {
     list: Vec<u32>,
-    /// Of each of them the longest edge, then or at the start of the substep [m].
+    /// The longest edge of each of these triangles, when measured or at the start of the substep,
+    /// whichever is longer [m].
     edges: Vec<f32>,
     /// The least longest free edge of the colliders near the cloth in this tick [m]; infinity if
     /// there is none.
@@ -98,7 +100,7 @@ impl LongTriangles {
         &self.list
     }
 
-    /// Returns the triangles, each with an upper bound of its edges in this substep [m].
+    /// Returns each triangle with an upper bound of the lengths of its edges in this substep [m].
     pub fn with_longest_edges(&self, x: &Columns) -> impl Iterator<Item = (u32, f32)> + '_ {
         let count = if self.list.is_empty() { 0 } else { x.x.len() };
         let move2 = |i: usize| x.get(i).distance_squared(self.measured.get(i));

@@ -66,7 +66,8 @@ pub(super) fn solve_blocks(
     }
 }
 
-/// Sets the clearances of the particles of all blocks that are not among `blocks`, in ascending order.
+/// Sets the clearances of the particles of all blocks that `blocks` does not list. The list is in
+/// ascending order.
 pub(super) fn measure_other_blocks(
     level: Level,
     shape: &CollisionShape,
