@@ -22,6 +22,8 @@ struct EdgeSource {
     opposite: [u32; 2],
     triangle: u32,
     sides: FeatureSides,
+    /// Whether one of its ends is the pole of a fan.
+    is_at_pole: bool,
 }
 
 /// The vertices of all features of a mesh.
@@ -42,7 +44,7 @@ impl FeatureSources {
         let mut sources = Self::default();
         let source = |MeshEdge { ends, opposite, triangle, is_interior }| {
             let sides = if is_interior { FeatureSides::TwoSided } else { FeatureSides::Boundary };
-            EdgeSource { ends, opposite, triangle, sides }
+            EdgeSource { ends, opposite, triangle, sides, is_at_pole: false }
         };
         sources.edges.extend(edges_of(positions, triangles).into_iter().map(source));
         let ends: Vec<[u32; 2]> = sources.edges.iter().map(|edge| edge.ends).collect();
@@ -50,6 +52,9 @@ impl FeatureSources {
             sources.starts.push(sources.incident.len() as u32);
             sources.vertices.push(own[0].vertex);
             sources.incident.extend(own.iter().map(|end| [end.edge, end.other]));
+            if own.len() >= POLE_EDGES {
+                own.iter().for_each(|end| sources.edges[end.edge as usize].is_at_pole = true);
+            }
         }
         sources.starts.push(sources.incident.len() as u32);
         let features = sources.features(positions);
@@ -94,7 +99,8 @@ impl FeatureSources {
 
     /// Calls `visit` with every edge whose first triangle fulfils `is_near` and whose bend fulfils
     /// `is_sharp` at one of two moments, and with both its ends as vertex features. `moments` are the
-    /// positions of all vertices then [m].
+    /// positions of all vertices then [m]. At the pole of a fan any bend counts as sharp, because the
+    /// one between opposite faces is not known here.
     pub fn visit_sharp_edges(
         &self,
         moments: [&[Vec3]; 2],
@@ -106,7 +112,7 @@ impl FeatureSources {
             let bends_at = |at: &[Vec3]| {
                 let place = |v: u32| at[v as usize];
                 let bend = bend_at_edge(edge.ends.map(place), edge.opposite.map(place));
-                bend.is_some_and(|(_, _, bend)| is_sharp(&bend))
+                bend.is_some_and(|(_, _, bend)| edge.is_at_pole || is_sharp(&bend))
             };
             if is_near(edge.triangle) && moments.into_iter().any(bends_at) {
                 visit(number, edge.ends.map(|v| self.vertex_feature(v)));
