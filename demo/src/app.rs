@@ -106,6 +106,11 @@ impl App {
         })
     }
 
+    /// Draws few pixels until the first frames have shown that the machine is fast enough for all.
+    pub fn start_low(&mut self) {
+        self.resolution_scaler = ResolutionScaler::starting_low();
+    }
+
     /// Returns the values of the controls.
     pub fn settings(&self) -> &Settings {
         &self.settings
@@ -210,12 +215,9 @@ impl App {
     }
 
     /// Sets how far overlays reach into the screen from left, top, right and bottom, in logical
-    /// pixels.
+    /// pixels. The picture moves into what they leave free while no pointer is down.
     pub fn set_insets(&mut self, insets: [f32; 4]) {
-        if insets != self.insets {
-            self.insets = insets;
-            self.camera.set_free_area(FreeArea::from_insets(insets, self.screen.size));
-        }
+        self.insets = insets;
     }
 
     /// Handles a pointer that is pressed at `at`, in logical pixels.
@@ -291,7 +293,11 @@ impl App {
     /// As [`SceneInstance::advance`].
     pub fn frame(&mut self, seconds: f32) -> Result<()> {
         let seconds = if seconds.is_finite() { seconds.max(0.0) } else { 0.0 };
-        let is_held = self.pointers.is_any_down() || self.is_photo;
+        let is_down = self.pointers.is_any_down();
+        if !is_down {
+            self.camera.set_free_area(FreeArea::from_insets(self.insets, self.screen.size));
+        }
+        let is_held = is_down || self.is_photo;
         self.camera.advance(seconds.min(LONGEST_FRAME), is_held);
         let (pointers, mut pick) = self.pick_context();
         pointers.update_targets(&mut pick)?;

@@ -33,6 +33,17 @@ pub struct CameraRig {
     pub start: [f32; 3],
     /// Half the width that must fit on the screen at the distance of the target [m].
     pub half_width: f32,
+    /// View for upright screens, if `start` would leave most of one empty.
+    pub upright: Option<UprightView>,
+}
+
+/// View of a wide subject that fills an upright screen: from a corner, so that the subject recedes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UprightView {
+    /// Start pose: azimuth [rad] and polar angle [rad].
+    pub start: [f32; 2],
+    /// Half the width that must fit on the screen at the distance of the target [m].
+    pub half_width: f32,
 }
 
 impl Default for CameraRig {
@@ -44,6 +55,7 @@ impl Default for CameraRig {
             radius: 3.0..=14.0,
             start: [0.42, 1.38, 4.7],
             half_width: 1.2,
+            upright: None,
         }
     }
 }
@@ -114,6 +126,8 @@ pub struct Camera {
     /// Whether there was no input yet.
     is_fresh: bool,
     free: FreeArea,
+    /// Whether the pose started as [`CameraRig::upright`].
+    is_upright: bool,
     /// Where the target is on the screen, in normalised device coordinates.
     shift: Vec2,
 }
@@ -148,6 +162,7 @@ impl Camera {
             drift: true,
             is_fresh: true,
             free: FreeArea::default(),
+            is_upright: false,
             shift: Vec2::ZERO,
         }
     }
@@ -182,11 +197,21 @@ impl Camera {
     }
 
     /// Sets the distance so that the cloth fits into the free area of a screen with this aspect
-    /// ratio (width over height), and moves the target to the centre of that area.
+    /// ratio (width over height), and moves the target to the centre of that area. Where the screen
+    /// becomes upright, or no longer is, the pose starts anew if the rig has a view for that.
     pub fn fit_to_aspect(&mut self, aspect: f32) {
         if aspect.is_finite() && aspect > 0.0 {
             let size = self.free.size();
-            let across = self.rig.half_width / ((FIELD_OF_VIEW * 0.5).tan() * aspect * size.x);
+            let upright = self.rig.upright.filter(|_| aspect < 1.0);
+            if upright.is_some() != self.is_upright {
+                self.is_upright = upright.is_some();
+                let [azimuth, polar, _] = self.rig.start;
+                let [azimuth, polar] = upright.map_or([azimuth, polar], |view| view.start);
+                self.goal = OrbitPose { azimuth, polar, ..self.goal };
+                self.now = OrbitPose { azimuth, polar, ..self.now };
+            }
+            let half_width = upright.map_or(self.rig.half_width, |view| view.half_width);
+            let across = half_width / ((FIELD_OF_VIEW * 0.5).tan() * aspect * size.x);
             self.goal.radius = across.max(self.rig.start[2] / size.y);
             self.shift = self.free.centre();
             self.clamp_goal();
@@ -415,6 +440,24 @@ mod tests {
                 assert!(is_inside, "a corner lands at {at} in {free:?}");
             }
         }
+    }
+
+    #[test]
+    fn an_upright_screen_has_its_own_start_pose() {
+        let upright = UprightView { start: [1.0, 0.9], half_width: 0.8 };
+        let rig = CameraRig { upright: Some(upright), ..CameraRig::default() };
+        let mut camera = Camera::new(rig.clone());
+        let mut pose_at = |aspect| {
+            camera.fit_to_aspect(aspect);
+            [camera.now.azimuth, camera.now.polar]
+        };
+        assert_eq!(pose_at(1.6), rig.start[..2]);
+        assert_eq!(pose_at(0.5), upright.start);
+        assert_eq!(pose_at(1.6), rig.start[..2]);
+        camera.orbit(Vec2::new(0.1, 0.0));
+        let turned = camera.goal.azimuth;
+        camera.fit_to_aspect(1.5);
+        assert_eq!(camera.goal.azimuth, turned, "a resize turns the camera");
     }
 
     #[test]

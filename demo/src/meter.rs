@@ -116,6 +116,8 @@ pub struct ResolutionScaler {
     slow: f32,
     /// Whether the density of the screen was not enough to lower.
     is_low: bool,
+    /// Number of frames without a very slow one that end the low mode of the start.
+    frames_to_end_start: u32,
 }
 
 /// Frame rate below which a frame counts as slow [1/s].
@@ -126,20 +128,34 @@ const SLOW_SECONDS: f32 = 2.0;
 const LONGEST_SLOW: f32 = 0.5;
 /// Frame rate below which the scale goes to its least at once [1/s].
 const VERY_SLOW_RATE: f32 = 10.0;
+/// Number of frames without a very slow one after which a page draws all pixels. Browsers accept a
+/// few frames before the first of them is drawn, so fewer would tell nothing.
+const START_FRAMES: u32 = 4;
 /// Least number of drawn pixels per device pixel along each side.
 const LEAST_SCALE: f32 = 0.5;
 
 impl Default for ResolutionScaler {
     fn default() -> Self {
-        Self { scale: 1.0, slow: 0.0, is_low: false }
+        Self { scale: 1.0, slow: 0.0, is_low: false, frames_to_end_start: 0 }
     }
 }
 
 impl ResolutionScaler {
+    /// Creates one that is in the low mode until [`START_FRAMES`] frames were not very slow, so that
+    /// a page without a graphics card shows its first frame soon.
+    pub fn starting_low() -> Self {
+        Self { frames_to_end_start: START_FRAMES, ..Self::default() }
+    }
+
     /// Adds the duration of a frame [s]; lowers the scale after [`SLOW_SECONDS`] of slow frames,
     /// and begins the low mode if the scale is at its least.
     pub fn record_frame(&mut self, seconds: f32) {
         let is_slow = seconds * SLOW_RATE > 1.0;
+        if self.frames_to_end_start > 0 && seconds > 0.0 {
+            let is_very_slow = seconds * VERY_SLOW_RATE > 1.0;
+            let left = self.frames_to_end_start - 1;
+            self.frames_to_end_start = if is_very_slow { START_FRAMES } else { left };
+        }
         self.slow = if is_slow { self.slow + seconds.min(LONGEST_SLOW) } else { 0.0 };
         if self.slow > SLOW_SECONDS {
             self.slow = 0.0;
@@ -153,13 +169,16 @@ impl ResolutionScaler {
     /// of device pixels per logical pixel. The result is at least one pixel per logical pixel, and
     /// half of that in the low mode.
     pub fn scale(&self, density: f32) -> f32 {
+        if self.frames_to_end_start > 0 {
+            return LEAST_SCALE;
+        }
         let least = if self.is_low { LEAST_SCALE } else { 1.0 };
         self.scale.max(least / density.max(1.0))
     }
 
-    /// Returns whether frames are slow at the least resolution too.
+    /// Returns whether frames are slow at the least resolution too, or may be.
     pub fn is_low(&self) -> bool {
-        self.is_low
+        self.is_low || self.frames_to_end_start > 0
     }
 }
 
@@ -204,6 +223,22 @@ mod tests {
             resolution_scaler.is_low()
         });
         assert_eq!(begins, Some(12), "twice more than two seconds");
+    }
+
+    #[test]
+    fn the_low_mode_of_the_start_ends_after_a_few_frames_and_not_on_slow_machines() {
+        let mut resolution_scaler = ResolutionScaler::starting_low();
+        for seconds in [0.0, 0.3, 0.016, 0.016, 0.016] {
+            resolution_scaler.record_frame(seconds);
+            assert_eq!((resolution_scaler.scale(1.0), resolution_scaler.is_low()), (0.5, true));
+        }
+        resolution_scaler.record_frame(0.016);
+        assert_eq!((resolution_scaler.scale(1.0), resolution_scaler.is_low()), (1.0, false));
+        let mut resolution_scaler = ResolutionScaler::starting_low();
+        for _ in 0..100 {
+            resolution_scaler.record_frame(0.2);
+            assert!(resolution_scaler.is_low());
+        }
     }
 
     #[test]

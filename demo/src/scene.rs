@@ -20,7 +20,7 @@ use muslin_scenes::{
     TornFlag,
 };
 
-use crate::camera::CameraRig;
+use crate::camera::{CameraRig, UprightView};
 use crate::fabric::{self, Appearance, Fabric};
 use crate::render::light::FLOOR;
 use crate::scene_kind::SceneKind;
@@ -114,6 +114,7 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
             radius: 1.5..=12.0,
             start: [0.18, 1.14, 3.3],
             half_width: 1.45,
+            upright: Some(UprightView { start: [1.05, 0.98], half_width: 1.02 }),
             ..usual
         },
         SceneKind::Curtain => CameraRig {

@@ -57,7 +57,8 @@ impl Demo {
                 control.set(&mut settings, option);
             }
         }
-        let app = App::new(settings, || now() * 1.0e-3).map_err(js_error)?;
+        let mut app = App::new(settings, || now() * 1.0e-3).map_err(js_error)?;
+        app.start_low();
         Ok(Self { app, renderer: None })
     }
 

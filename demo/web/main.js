@@ -9,9 +9,10 @@ import { connectPhoto } from "./photo.js";
 const KEY = "cloth3d.settings.v1";
 const NARROW = matchMedia("(max-width: 640px)");
 const REDUCED_MOTION = matchMedia("(prefers-reduced-motion: reduce)");
-/** Width of the panel and its margin, and distance of the instructions from the bottom, with margin. */
+/** Width of the panel, distance of the instructions from the bottom, height of the footer; with margins. */
 const PANEL_WIDTH = 300;
 const HELP_BOTTOM = 68;
+const FOOTER = 48;
 /** In a lower window the instructions cover the scene. */
 const LOW = 560;
 const canvas = by("stage");
@@ -201,7 +202,9 @@ function listenToKeys(demo, changed) {
 function insets() {
   if (document.body.classList.contains("photo")) return [0, 0];
   const isBeside = !NARROW.matches && !by("panel").classList.contains("closed");
-  return [isBeside ? PANEL_WIDTH : 0, innerHeight < LOW ? 0 : by("help").offsetHeight + HELP_BOTTOM];
+  const help = by("help");
+  const bottom = help.classList.contains("gone") ? FOOTER : help.offsetHeight + HELP_BOTTOM;
+  return [isBeside ? PANEL_WIDTH : 0, innerHeight < LOW ? 0 : bottom];
 }
 
 /** Returns the middle of what overlays leave free of the canvas. */
@@ -217,7 +220,7 @@ function connectInsets(demo) {
     demo.setInsets(left, 0, 0, bottom);
   };
   addEventListener("resize", update);
-  new MutationObserver(update).observe(by("panel"), { attributeFilter: ["class"] });
+  for (const id of ["panel", "help"]) new MutationObserver(update).observe(by(id), { attributeFilter: ["class"] });
   return update;
 }
 
@@ -246,9 +249,11 @@ function connectOverlays() {
 }
 
 try {
+  // Browsers load and compile the module while they start to draw.
+  const ready = init({ module_or_path: new URL("./muslin_demo_bg.wasm", import.meta.url) });
   const gl = context(canvas);
   if (gl) {
-    await init({ module_or_path: new URL("./muslin_demo_bg.wasm", import.meta.url) });
+    await ready;
     const demo = new Demo(readSettings(), linkedChoices());
     demo.attach(gl);
     run(demo);

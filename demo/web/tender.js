@@ -117,9 +117,11 @@ function showReadout(stats) {
 }
 
 try {
+  // Browsers load and compile the module while they start to draw.
+  const ready = init({ module_or_path: new URL("./muslin_demo_bg.wasm", import.meta.url) });
   const gl = context(canvas);
   if (gl) {
-    await init({ module_or_path: new URL("./muslin_demo_bg.wasm", import.meta.url) });
+    await ready;
     const receipt = new Receipt(USE_SMALL_SHEET);
     receipt.attach(gl);
     run(receipt);

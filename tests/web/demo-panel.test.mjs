@@ -301,6 +301,7 @@ test("arrow keys walk the person through the doorway, and the instructions say s
   const start = await walker();
   assert.ok(start[2] > 0.8, `the person starts at ${start}`);
   await page.keyboard.press("?");
+  await page.locator("#help").waitFor();
   const text = await page.locator("#help").innerText();
   assert.match(text, /hold arrow keys to walk/);
   await page.keyboard.press("Escape");

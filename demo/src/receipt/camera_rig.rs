@@ -19,5 +19,6 @@ pub fn rig() -> CameraRig {
         radius: 4.0..=30.0,
         start: [0.26, 1.43, 17.4],
         half_width: 2.9,
+        upright: None,
     }
 }

@@ -10,10 +10,16 @@ use glam::Vec3;
 use three_d::{CoreError, RenderTarget};
 
 use super::ReceiptApp;
+use crate::meter::ResolutionScaler;
 use crate::render::ClothSurface;
 use crate::render::receipt_renderer::{ReceiptFrame, ReceiptRenderer};
 
 impl ReceiptApp {
+    /// Draws few pixels until the first frames have shown that the machine is fast enough for all.
+    pub fn start_low(&mut self) {
+        self.resolution_scaler = ResolutionScaler::starting_low();
+    }
+
     /// Draws the current state of the receipt.
     ///
     /// # Errors

@@ -32,8 +32,9 @@ impl Receipt {
     /// Creates the receipt; `small` selects the sheet with fewer particles.
     #[wasm_bindgen(constructor)]
     pub fn new(small: bool) -> Result<Receipt, JsError> {
-        let app = ReceiptApp::new(ReceiptSettings::default(), small, || now() * 1.0e-3)
+        let mut app = ReceiptApp::new(ReceiptSettings::default(), small, || now() * 1.0e-3)
             .map_err(js_error)?;
+        app.start_low();
         Ok(Self { app, renderer: None, size: Vec2::ONE, insets: [0.0; 4] })
     }
 

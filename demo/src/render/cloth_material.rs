@@ -11,6 +11,7 @@
 use glam::{Vec2, Vec3};
 use three_d::{Context, CoreError, Program, RenderStates};
 
+use super::glsl::glsl;
 use super::light::{FLOOR, linear};
 use super::mesh::{Detail, Mesh};
 use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
@@ -65,14 +66,8 @@ impl ClothMaterial {
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
-        let fragment = concat!(
-            include_str!("shaders/light.glsl"),
-            include_str!("shaders/weave.glsl"),
-            include_str!("shaders/cloth.frag")
-        );
-        Ok(Self {
-            program: Program::from_source(context, include_str!("shaders/cloth.vert"), fragment)?,
-        })
+        let fragment = glsl!("light.glsl", "weave.glsl", "cloth.frag");
+        Ok(Self { program: Program::from_source(context, glsl!("cloth.vert"), fragment)? })
     }
 
     /// Draws the cloth; a `dim` below one darkens it, for the wireframe.

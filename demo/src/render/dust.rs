@@ -11,6 +11,7 @@
 use glam::Vec3;
 use three_d::{Blend, Context, CoreError, Cull, Program, RenderStates, VertexBuffer, WriteMask};
 
+use super::glsl::glsl;
 use super::lazy_program::LazyProgram;
 use super::light::{FLOOR, STAGE_CENTRE};
 use super::pass::{RenderPass, to_gl_matrix, to_gl_vector};
@@ -35,16 +36,8 @@ impl Dust {
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
         Ok(Self {
-            dust: Program::from_source(
-                context,
-                include_str!("shaders/dust.vert"),
-                include_str!("shaders/dust.frag"),
-            )?,
-            rain: LazyProgram::new(
-                context,
-                include_str!("shaders/rain.vert"),
-                include_str!("shaders/rain.frag"),
-            ),
+            dust: Program::from_source(context, glsl!("dust.vert"), glsl!("dust.frag"))?,
+            rain: LazyProgram::new(context, glsl!("rain.vert"), glsl!("rain.frag")),
             motes: VertexBuffer::new_with_data(context, &quads(MOTES)),
             drops: VertexBuffer::new_with_data(context, &quads(DROPS)),
         })

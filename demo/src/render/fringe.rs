@@ -21,6 +21,7 @@ use three_d::{
 };
 
 use super::cloth_material::ClothAlbedo;
+use super::glsl::glsl;
 use super::lazy_program::LazyProgram;
 use super::mesh::ClothSurface;
 use super::pass::{RenderPass, to_gl_matrix, to_gl_vector};
@@ -76,9 +77,8 @@ const ROW: usize = 64;
 impl Fringe {
     /// Creates what draws the threads.
     pub fn new(context: &Context) -> Self {
-        let fragment =
-            concat!(include_str!("shaders/light.glsl"), include_str!("shaders/fringe.frag"));
-        let vertex = include_str!("shaders/fringe.vert");
+        let fragment = glsl!("light.glsl", "fringe.frag");
+        let vertex = glsl!("fringe.vert");
         Self { program: LazyProgram::new(context, vertex, fragment) }
     }
 

@@ -13,6 +13,7 @@
 
 use three_d::{Context, CoreError, RenderStates, Texture2D};
 
+use super::glsl::glsl;
 use super::lazy_program::LazyProgram;
 use super::light::{FLOOR, invert_tone_curve};
 use super::pass::{RenderPass, to_gl_vector};
@@ -27,10 +28,8 @@ pub struct Glass {
 impl Glass {
     /// Creates what draws the balls.
     pub fn new(context: &Context) -> Self {
-        let vertex =
-            concat!(include_str!("shaders/capsule.glsl"), include_str!("shaders/solid.vert"));
-        let fragment =
-            concat!(include_str!("shaders/light.glsl"), include_str!("shaders/glass.frag"));
+        let vertex = glsl!("capsule.glsl", "solid.vert");
+        let fragment = glsl!("light.glsl", "glass.frag");
         Self { program: LazyProgram::new(context, vertex, fragment) }
     }
 

@@ -9,6 +9,7 @@
 
 use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
 
+use super::glsl::glsl;
 use super::halo::Halo;
 use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
 
@@ -23,13 +24,7 @@ impl Glow {
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
-        Ok(Self {
-            program: Program::from_source(
-                context,
-                include_str!("shaders/glow.vert"),
-                include_str!("shaders/glow.frag"),
-            )?,
-        })
+        Ok(Self { program: Program::from_source(context, glsl!("glow.vert"), glsl!("glow.frag"))? })
     }
 
     pub(super) fn draw(&self, pass: &RenderPass, quad: &UnitQuad, halos: &[Halo]) {

@@ -12,6 +12,7 @@
 use glam::Vec3;
 use three_d::{Blend, Context, CoreError, Program, RenderStates, WriteMask};
 
+use super::glsl::glsl;
 use super::halo::{Halo, LAMPS};
 use super::light::{FLOOR, STAGE_CENTRE, STAGE_DEPTH, STAGE_RADIUS};
 use super::pass::{RenderPass, UnitQuad, to_gl_matrix, to_gl_vector};
@@ -38,11 +39,8 @@ impl Ground {
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
-        let fragment =
-            concat!(include_str!("shaders/light.glsl"), include_str!("shaders/ground.frag"));
-        Ok(Self {
-            program: Program::from_source(context, include_str!("shaders/ground.vert"), fragment)?,
-        })
+        let fragment = glsl!("light.glsl", "ground.frag");
+        Ok(Self { program: Program::from_source(context, glsl!("ground.vert"), fragment)? })
     }
 
     /// Draws the floor; `depths` is a coarse depth map of the key light, which measures how far

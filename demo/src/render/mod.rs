@@ -17,6 +17,7 @@ pub mod dust;
 pub mod fringe;
 pub mod glass;
 pub mod glow;
+mod glsl;
 pub mod ground;
 mod halo;
 mod hdr_target;

@@ -10,6 +10,7 @@ use three_d::{
     Context, CoreError, DepthTest, Program, RenderStates, Texture2D, Viewport, WriteMask,
 };
 
+use super::glsl::glsl;
 use super::pass::UnitQuad;
 
 /// Shader program of the post-processing pass.
@@ -24,11 +25,7 @@ impl Post {
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
         Ok(Self {
-            program: Program::from_source(
-                context,
-                include_str!("shaders/screen.vert"),
-                include_str!("shaders/post.frag"),
-            )?,
+            program: Program::from_source(context, glsl!("screen.vert"), glsl!("post.frag"))?,
         })
     }
 

@@ -19,6 +19,7 @@ use three_d::{
     RenderTarget, Texture2D, Viewport, Wrapping, WriteMask,
 };
 
+use super::glsl::glsl;
 use super::hdr_target::HdrTarget;
 use super::light::{Light, Lights, linear};
 use super::mesh::{ClothSurface, Detail, Mesh};
@@ -86,16 +87,8 @@ impl ReceiptRenderer {
     /// # Errors
     /// [`CoreError`] if the driver refuses a shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
-        let lit = concat!(
-            include_str!("shaders/light.glsl"),
-            include_str!("shaders/sky_light.glsl"),
-            include_str!("shaders/paper.frag")
-        );
-        let ground = concat!(
-            include_str!("shaders/light.glsl"),
-            include_str!("shaders/sky_light.glsl"),
-            include_str!("shaders/table.frag")
-        );
+        let lit = glsl!("light.glsl", "sky_light.glsl", "paper.frag");
+        let ground = glsl!("light.glsl", "sky_light.glsl", "table.frag");
         let depths = DepthProgram::new(context)?;
         Ok(Self {
             context: context.clone(),
@@ -106,13 +99,13 @@ impl ReceiptRenderer {
             sky: SkyLight::new(context, &depths),
             ink: ink(context),
             creases: None,
-            paper: Program::from_source(context, include_str!("shaders/cloth.vert"), lit)?,
-            ground: Program::from_source(context, include_str!("shaders/ground.vert"), ground)?,
+            paper: Program::from_source(context, glsl!("cloth.vert"), lit)?,
+            ground: Program::from_source(context, glsl!("ground.vert"), ground)?,
             solids: Solids::new(context)?,
             tone_curve: Program::from_source(
                 context,
-                include_str!("shaders/screen.vert"),
-                include_str!("shaders/daylight.frag"),
+                glsl!("screen.vert"),
+                glsl!("daylight.frag"),
             )?,
             quad: UnitQuad::new(context),
             target: None,

@@ -17,6 +17,7 @@ use three_d::{
     WriteMask,
 };
 
+use super::glsl::glsl;
 use super::light::{Light, Lights};
 use super::mesh::{Detail, Mesh};
 use super::pass::{to_gl_matrix, to_gl_vector};
@@ -92,8 +93,7 @@ impl DepthProgram {
     /// # Errors
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Rc<Self>, CoreError> {
-        let [vertex, fragment] =
-            [include_str!("shaders/depth.vert"), include_str!("shaders/depth.frag")];
+        let [vertex, fragment] = [glsl!("depth.vert"), glsl!("depth.frag")];
         Ok(Rc::new(Self(Program::from_source(context, vertex, fragment)?)))
     }
 

@@ -8,6 +8,7 @@
 
 use three_d::{Context, CoreError, DepthTest, Program, RenderStates, WriteMask};
 
+use super::glsl::glsl;
 use super::light::invert_tone_curve;
 use super::pass::{RenderPass, UnitQuad, to_gl_vector};
 
@@ -23,11 +24,7 @@ impl Sky {
     /// [`CoreError`] if the driver refuses the shader.
     pub fn new(context: &Context) -> Result<Self, CoreError> {
         Ok(Self {
-            program: Program::from_source(
-                context,
-                include_str!("shaders/screen.vert"),
-                include_str!("shaders/sky.frag"),
-            )?,
+            program: Program::from_source(context, glsl!("screen.vert"), glsl!("sky.frag"))?,
         })
     }
 

@@ -15,6 +15,7 @@ use three_d::{
     Context, CoreError, ElementBuffer, Program, RenderStates, VertexBuffer, Viewport, WriteMask,
 };
 
+use super::glsl::glsl;
 use super::light::{FLOOR, linear};
 use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
@@ -98,15 +99,12 @@ impl Solids {
                 triangles: ElementBuffer::new_with_data(context, &triangles),
             }
         };
-        let vertex =
-            concat!(include_str!("shaders/capsule.glsl"), include_str!("shaders/solid.vert"));
-        let depth =
-            concat!(include_str!("shaders/capsule.glsl"), include_str!("shaders/solid_depth.vert"));
-        let fragment =
-            concat!(include_str!("shaders/light.glsl"), include_str!("shaders/solid.frag"));
+        let vertex = glsl!("capsule.glsl", "solid.vert");
+        let depth = glsl!("capsule.glsl", "solid_depth.vert");
+        let fragment = glsl!("light.glsl", "solid.frag");
         Ok(Self {
             program: Program::from_source(context, vertex, fragment)?,
-            depth: Program::from_source(context, depth, include_str!("shaders/depth.frag"))?,
+            depth: Program::from_source(context, depth, glsl!("depth.frag"))?,
             fine: shell(FINE),
             coarse: shell(COARSE),
         })

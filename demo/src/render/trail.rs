@@ -9,6 +9,7 @@
 use glam::Vec2;
 use three_d::{Blend, Context, CoreError, DepthTest, RenderStates, VertexBuffer, WriteMask};
 
+use super::glsl::glsl;
 use super::lazy_program::LazyProgram;
 use super::light::linear;
 use super::pass::{RenderPass, to_gl_vector};
@@ -37,11 +38,7 @@ impl Trail {
     /// Creates an empty ribbon.
     pub fn new(context: &Context) -> Self {
         Self {
-            program: LazyProgram::new(
-                context,
-                include_str!("shaders/trail.vert"),
-                include_str!("shaders/trail.frag"),
-            ),
+            program: LazyProgram::new(context, glsl!("trail.vert"), glsl!("trail.frag")),
             ribbon: VertexBuffer::new(context),
         }
     }

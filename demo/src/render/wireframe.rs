@@ -9,6 +9,7 @@
 use three_d::context::{self, HasContext};
 use three_d::{Blend, Context, CoreError, RenderStates, WriteMask};
 
+use super::glsl::glsl;
 use super::lazy_program::LazyProgram;
 use super::light::linear;
 use super::mesh::Mesh;
@@ -25,11 +26,7 @@ impl Wireframe {
     pub fn new(context: &Context) -> Self {
         Self {
             context: context.clone(),
-            program: LazyProgram::new(
-                context,
-                include_str!("shaders/wire.vert"),
-                include_str!("shaders/wire.frag"),
-            ),
+            program: LazyProgram::new(context, glsl!("wire.vert"), glsl!("wire.frag")),
         }
     }
 

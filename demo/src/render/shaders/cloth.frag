@@ -123,9 +123,11 @@ void main() {
     light += key * albedo * max(nl, 0.0) / PI;
     light += key * shine * (sharp * mix(vec3(1.0), thread, 0.25) + 0.8 * broad * thread);
     light += key * max(nl, 0.0) * (fibres.x + 0.12 * undone) * mix(vec3(1.0), thread, 0.5) * fuzz(dot(n, h), max(nl, 0.0), nv);
-    vec3 tint = fibres.y * (1.0 + 0.4 * undone) * (1.0 - 0.35 * hem) * albedo * mix(vec3(1.0), albedo, 0.6);
-    float through = 0.55 * max(-nl, 0.0) + 0.9 * pow(max(dot(-v, keyTowards), 0.0), 4.0) * step(0.0, -nl);
-    light += keyColour * lit * through * tint * mix(0.4, 1.0, open);
+    // Light through the cloth is dyed by it, and more so where it passes at a slant (Beer-Lambert).
+    float slant = 1.0 / clamp(-nl, 0.25, 1.0);
+    vec3 tint = fibres.y * (1.0 + 0.4 * undone) * (1.0 - 0.35 * hem) * pow(albedo, vec3(0.8 + slant));
+    float through = 0.44 * max(-nl, 0.0) + 0.9 * pow(max(dot(-v, keyTowards), 0.0), 4.0) * step(0.0, -nl);
+    light += keyColour * lit * through * tint * mix(0.25, 1.0, open);
 
     // The fill light casts no shadow; folds occlude it.
     float fl = max((dot(n, fillTowards) + 0.25) / 1.25, 0.0);
@@ -133,8 +135,9 @@ void main() {
     float rl = dot(n, rimTowards);
     vec3 rim = rimColour * rimVisibility(at + smoothN * (dot(smoothN, rimTowards) >= 0.0 ? 0.03 : -0.03));
     float edge = pow(1.0 - nv, 3.0);
-    light += rim * (albedo * max(rl, 0.0) / PI * 0.7 * open + min(0.15 + 0.25 * gloss.w, 0.45) * edge * smoothstep(-0.2, 0.6, rl));
-    light += rim * 0.12 * max(-rl, 0.0) * tint;
+    light += rim * (albedo * max(rl, 0.0) / PI * 0.28 * open + min(0.15 + 0.25 * gloss.w, 0.45) * edge * smoothstep(-0.2, 0.6, rl));
+    light += rim * open * 1.2 * shine * mix(vec3(1.0), thread, 0.25) * satin(n, t, b, rimTowards, v, 1.2 * width);
+    light += rim * 0.12 * max(-rl, 0.0) * fibres.y * albedo * albedo;
 
     // Hemisphere light of sky and floor, and reflections of the environment.
     vec3 dome = mix(vec3(0.050, 0.046, 0.066), vec3(0.105, 0.130, 0.235), 0.5 + 0.5 * n.y);
