@@ -249,7 +249,7 @@ fn build_world(
         particles: Particles::at_rest(&rest, allocated),
         mass_scales: MassScales::default(),
         tethers: Tethers::default(),
-        scratch: TickScratch::new(rest.len(), allocated),
+        scratch: TickScratch::default(),
         pins: Pins::default(),
         attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),

@@ -70,6 +70,7 @@ use crate::math::float_env::with_float_env;
 use crate::mesh::report::MeshReport;
 use crate::solver::pipeline;
 use crate::solver::profile::Clock;
+use crate::solver::scratch_pool;
 use crate::solver::world::World;
 use crate::state::colliders::Impulse;
 use crate::state::events::Event;
@@ -354,7 +355,7 @@ impl Cloth {
                 if pins_changed {
                     world.rebuild_tethers();
                 }
-                run_ticks(world, ticks)
+                scratch_pool::with_lent(world, |world| run_ticks(world, ticks))
             })
         });
         if self.world.mesh.vertex_count() != vertices {

@@ -265,7 +265,7 @@ impl Cloth {
         let bytes = size_of::<Self>()
             + self.desc.heap_bytes()
             + self.world.heap_bytes()
-            + self.world.contact_bytes()
+            + self.world.collider_bytes()
             + self.outputs.heap_bytes()
             + self.history.heap_bytes()
             + self.ray_tree.bytes();
