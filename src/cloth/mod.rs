@@ -67,6 +67,7 @@ use crate::cloth::ray_tree::RayTree;
 use crate::cloth::tracked_world::TrackedWorld;
 use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
+use crate::math::shared::Shared;
 use crate::mesh::report::MeshReport;
 use crate::solver::pipeline;
 use crate::solver::profile::Clock;
@@ -124,7 +125,7 @@ use crate::state::events::Event;
 pub struct Cloth {
     /// The descriptor that the cloth was made from; [`Cloth::reset`] builds the rest state from it
     /// again.
-    desc: ClothDesc,
+    desc: Shared<ClothDesc>,
     world: TrackedWorld,
     outputs: Outputs,
     report: MeshReport,
@@ -222,7 +223,7 @@ impl Cloth {
         let outputs = Outputs::new(&world, &desc);
         let history = ChangeHistory::new(world.has_tear_reserve);
         Ok(Self {
-            desc,
+            desc: Shared::new(desc),
             world: TrackedWorld::new(world),
             outputs,
             report,

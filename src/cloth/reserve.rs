@@ -76,13 +76,28 @@ impl World {
         self.reserve_pieces();
     }
 
+    /// Makes all rest data unique that tears in a tick change.
+    fn make_unique(&mut self) {
+        self.mesh.make_unique();
+        self.corner_area.make_unique();
+        self.constraints.make_unique();
+        if let Some(plates) = &mut self.plate_elements {
+            plates.make_unique();
+        }
+    }
+
     /// Allocates the lists outside of the scratch buffers.
     #[inline(never)]
     fn reserve_lists(&mut self) {
         let particles = self.allocated_particles();
+        if self.has_tear_reserve {
+            self.make_unique();
+        }
         let reserve = |list: &mut Vec<u32>| list.reserve_total(particles);
-        reserve(&mut self.mesh.source);
-        reserve(&mut self.mesh.corner_of);
+        if self.has_tear_reserve {
+            reserve(&mut self.mesh.source);
+            reserve(&mut self.mesh.corner_of);
+        }
         self.particles.reserve(particles);
         self.mass_scales.reserve(particles);
         self.maps.reserve(particles);
@@ -142,7 +157,8 @@ impl World {
         scratch.line_lengths =
             LineLengths::new(chains.max_steps(), particles, [gathers, has_grid_rows]);
         let hinges = self.constraints.hinges.all.len();
-        scratch.bend = BendScratch::new(self.plate_elements.as_ref(), triangles, hinges, particles);
+        scratch.bend =
+            BendScratch::new(self.plate_elements.as_deref(), triangles, hinges, particles);
         scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
         if self.has_tear_reserve {
             scratch.tear =
@@ -164,6 +180,7 @@ impl World {
         }
         if self.material.stretch_damping > 0.0 {
             let opened_edges = self.mesh.max_opened_edges(particles);
+            self.constraints.chains.blocks.make_unique();
             self.scratch.damping.reserve(links, self.constraints.dynamic.len() + opened_edges);
         }
         if self.material.yield_angle > 0.0 || self.folds.is_allocated() {

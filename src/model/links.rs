@@ -14,6 +14,7 @@
 use crate::math::column::Column;
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::min;
+use crate::math::shared::Shared;
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::link_ends::LinkEnds;
 use crate::model::maps::{Map, Maps};
@@ -96,7 +97,7 @@ pub(crate) struct Links {
     /// Whether the link acts; false once its support is gone.
     pub active: Vec<bool>,
     /// Definition.
-    pub spec: Vec<LinkSpec>,
+    pub spec: Shared<Vec<LinkSpec>>,
 }
 
 heap_bytes!(Links { a, b, rest, compliance, lambda, active, spec } plain {});
@@ -104,6 +105,13 @@ heap_bytes!(Links { a, b, rest, compliance, lambda, active, spec } plain {});
 impl Links {
     pub fn len(&self) -> usize {
         self.rest.len()
+    }
+
+    /// Makes all that tears change unique.
+    pub fn make_unique(&mut self) {
+        self.a.make_unique();
+        self.b.make_unique();
+        self.spec.make_unique();
     }
 
     pub fn kind(&self, link: usize) -> LinkKind {
