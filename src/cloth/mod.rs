@@ -147,7 +147,7 @@ impl Clone for Cloth {
         world.reserve();
         Self {
             desc: self.desc.clone(),
-            outputs: Outputs::new(&world, &self.desc),
+            outputs: self.outputs.of_clone(&world),
             world,
             report: self.report,
             pins_changed: self.pins_changed,

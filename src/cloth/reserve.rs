@@ -58,8 +58,8 @@ impl World {
     /// Allocates every list again, after the world was cloned or read from a save: such lists have
     /// no spare capacity.
     pub(crate) fn reserve(&mut self) {
-        self.reserve_lists();
         self.scratch = TickScratch::default();
+        self.reserve_lists();
         self.label_pieces();
         self.reserve_scratch();
         self.reserve_effective_mass();
@@ -180,7 +180,7 @@ impl World {
         }
         if self.material.stretch_damping > 0.0 {
             let opened_edges = self.mesh.max_opened_edges(particles);
-            self.constraints.chains.blocks.make_unique();
+            self.constraints.make_lengths_unique();
             self.scratch.damping.reserve(links, self.constraints.dynamic.len() + opened_edges);
         }
         if self.material.yield_angle > 0.0 || self.folds.is_allocated() {

@@ -45,7 +45,7 @@ pub(crate) struct Constraints {
     /// Hinges, which resist bending on a mesh that is not a grid.
     pub hinges: Hinges,
     /// Whether the definition of a link in `links` has changed since creation.
-    pub(super) is_changed: Vec<bool>,
+    pub(super) is_changed: Shared<Vec<bool>>,
     /// Links added by tears and cuts, in order of creation, see `dynamic_links`.
     pub dynamic: Links,
     /// Active dynamic links by colour; valid after `rebuild_sparse`.
@@ -285,7 +285,7 @@ impl Constraints {
             rows: None,
             chains: Chains::default(),
             hinges: Hinges::none(),
-            is_changed,
+            is_changed: Shared::new(is_changed),
             dynamic,
             sparse,
             coloring,
@@ -299,9 +299,17 @@ impl Constraints {
         }
     }
 
+    /// Makes all that damping changes unique.
+    pub fn make_lengths_unique(&mut self) {
+        self.links.make_lengths_unique();
+        self.dynamic.make_lengths_unique();
+        self.chains.blocks.make_unique();
+    }
+
     /// Makes all that tears change unique.
     pub fn make_unique(&mut self) {
         self.links.make_unique();
+        self.is_changed.make_unique();
         self.link_of_edge.make_unique();
         self.chains.blocks.make_unique();
         if let Some(rows) = &mut self.rows {
