@@ -91,8 +91,9 @@ pub struct Stats {
     pub substeps: u32,
     /// Whether the cloth sleeps, see [`Settings::sleep_speed`](crate::Settings).
     pub asleep: bool,
-    /// Memory of the cloth [bytes]: what it has allocated, and itself. Contacts with colliders are
-    /// estimated, and the shapes of colliders not counted.
+    /// Memory of the cloth [bytes]: what it has allocated, and itself. What clones share counts in equal
+    /// parts for each. Not counted are the shapes of colliders, and the scratch buffers of ticks, which
+    /// each thread has once, for the largest cloth that it has made or stepped.
     pub bytes: u64,
     /// Time of each stage ([`Stage::ALL`](crate::Stage)) in the last call that ran ticks [s]; zeros
     /// without a clock ([`Cloth::set_clock`]).
