@@ -59,7 +59,7 @@ fn play(cloth: &mut Cloth, tick: u32) -> u64 {
     match tick {
         11 => drop(cloth.tear_edge(100, 101)),
         17 => {
-            drop(cloth.cut(Vec3::new(0.2, -9.0, -9.0), Vec3::new(0.2, 9.0, -9.0), Vec3::Z * 18.0))
+            drop(cloth.cut(Vec3::new(0.2, -9.0, -9.0), Vec3::new(0.2, 9.0, -9.0), Vec3::Z * 18.0));
         }
         23 => {
             let mut settings = cloth.settings().clone();
