@@ -15,7 +15,8 @@ pub fn scenes() -> Vec<Scene> {
 
 /// A sheet of 0.8 m that stands on its edge over a floor.
 fn standing(side: u32) -> Result<Play> {
-    let desc = GridDesc { origin: Vec3::new(-0.4, 0.83, 0.0), ..upright_sheet(side, 0.8) };
+    let mut desc = GridDesc { origin: Vec3::new(-0.4, 0.83, 0.0), ..upright_sheet(side, 0.8) };
+    desc.extra_particles = 4 * side * side;
     let mut play = Play::grid(&with_surface(desc))?;
     play.add(floor(0.0))?;
     play.set_velocities(|x| Vec3::Z * (0.3 * (7.0 * x.x + 1.0).sin() * (5.0 * x.y + 2.0).sin()))?;
