@@ -250,7 +250,7 @@ fn build_world(
         particles: Particles::at_rest(&rest, allocated),
         mass_scales: MassScales::default(),
         tethers: Tethers::default(),
-        scratch: TickScratch::default(),
+        scratch: TickScratch::empty(),
         pins: Pins::default(),
         attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),

@@ -58,7 +58,7 @@ impl World {
     /// Allocates every list again, after the world was cloned or read from a save: such lists have
     /// no spare capacity.
     pub(crate) fn reserve(&mut self) {
-        self.scratch = TickScratch::default();
+        self.scratch = TickScratch::empty();
         self.reserve_lists();
         self.label_pieces();
         self.reserve_scratch();

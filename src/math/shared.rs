@@ -22,7 +22,7 @@ impl<T: Clone> Shared<T> {
 
     /// Copies the value if others share it.
     pub fn make_unique(&mut self) {
-        Arc::make_mut(&mut self.0);
+        self.deref_mut();
     }
 }
 
@@ -42,13 +42,19 @@ impl<T> Deref for Shared<T> {
 }
 
 impl<T: Clone> DerefMut for Shared<T> {
+    // `Arc::make_mut` also provides for weak references, which takes more code.
+    #[inline(never)]
     fn deref_mut(&mut self) -> &mut T {
-        Arc::make_mut(&mut self.0)
+        if Arc::strong_count(&self.0) != 1 {
+            self.0 = Arc::new(T::clone(self));
+        }
+        Arc::get_mut(&mut self.0).expect("a value that nobody shares")
     }
 }
 
 impl<T: HeapBytes> HeapBytes for Shared<T> {
     /// The same part of the value for each that shares it.
+    #[inline(never)]
     fn heap_bytes(&self) -> usize {
         let counts = 2 * size_of::<usize>();
         (counts + size_of::<T>() + T::heap_bytes(self)) / Arc::strong_count(&self.0)

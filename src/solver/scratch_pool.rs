@@ -37,7 +37,7 @@ pub(crate) fn reserve(world: &mut World) {
 /// Gives `world` the buffers of this thread, as large as it needs them. Returns the rest of the pool.
 #[inline(never)]
 fn lend(world: &mut World) -> Box<TickScratch> {
-    let mut pool = POOL.try_with(Cell::take).ok().flatten().unwrap_or_default();
+    let mut pool = POOL.try_with(Cell::take).ok().flatten().unwrap_or_else(|| Box::new(TickScratch::empty()));
     world.scratch.swap_lent(&mut pool);
     if pool.owner != world.scratch.owner {
         pool.owner = world.scratch.owner.same();
@@ -56,6 +56,7 @@ fn take_back(world: &mut World, mut pool: Box<TickScratch>) {
 
 impl World {
     /// Allocates the lent buffers. Those that have one entry per particle get that length.
+    #[inline(never)]
     fn reserve_lent(&mut self) {
         let (count, particles) = (self.particles.len(), self.allocated_particles());
         let has_bodies = self.colliders.iter().next().is_some();

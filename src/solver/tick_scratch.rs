@@ -129,6 +129,12 @@ impl Clone for ScratchOwner {
 }
 
 impl TickScratch {
+    /// Makes buffers without memory.
+    #[inline(never)]
+    pub fn empty() -> Self {
+        Self::default()
+    }
+
     /// Exchanges the lists whose content lives within a tick with those of `other`.
     pub fn swap_lent(&mut self, other: &mut Self) {
         let [own, others] = [&mut *self, &mut *other].map(Self::lent_columns);
@@ -153,6 +159,7 @@ impl TickScratch {
     }
 
     /// Makes the same lists those of a cloth that was just made, but for their memory.
+    #[inline(never)]
     pub fn clear_lent(&mut self) {
         self.lent_columns().into_iter().for_each(|columns| columns.resize(0));
         self.interleaved.clear();
@@ -163,6 +170,7 @@ impl TickScratch {
 
     /// Allocates the columns for `capacity` particles, of which `count` exist now: also those that
     /// only a strain limit or a collider needs, where there is one.
+    #[inline(never)]
     pub fn reserve_columns(&mut self, count: usize, capacity: usize, [limit, body]: [bool; 2]) {
         let is_used = [true, true, true, true, limit, true, true, body];
         for (columns, is_used) in self.lent_columns().into_iter().zip(is_used) {

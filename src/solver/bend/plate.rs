@@ -141,6 +141,7 @@ impl PlateScratch {
     }
 
     /// Gives the buffers of one tick the lengths for `plates`. New entries are zero.
+    #[inline(never)]
     pub fn resize_lent(&mut self, plates: &PlateElements) {
         let (count, margin) = (plates.count(), plates.columns + 1);
         for (at, list) in self.lists_of_tick().enumerate() {

@@ -95,6 +95,7 @@ impl ContactScratch {
 
     /// Allocates the lent lists for `bodies` colliders and a cloth of at most `particles` particles
     /// and `triangles` triangles.
+    #[inline(never)]
     pub fn reserve_lent(&mut self, bodies: usize, particles: usize, triangles: usize) {
         self.body_motions.reserve_total(bodies);
         self.max_contacts = particles;
@@ -117,6 +118,7 @@ impl ContactScratch {
     }
 
     /// Exchanges all that lives within a tick with that of `other`.
+    #[inline(never)]
     pub fn swap_lent(&mut self, other: &mut Self) {
         swap(self, other);
         swap(&mut self.nearby, &mut other.nearby);
@@ -125,6 +127,7 @@ impl ContactScratch {
     }
 
     /// Makes the lent lists those of a cloth that was just made, but for their memory.
+    #[inline(never)]
     pub fn clear_lent(&mut self) {
         self.nearby.clear_lent();
         self.body_motions.clear();
