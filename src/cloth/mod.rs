@@ -67,11 +67,9 @@ use crate::cloth::ray_tree::RayTree;
 use crate::cloth::tracked_world::TrackedWorld;
 use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
-use crate::math::shared::Shared;
 use crate::mesh::report::MeshReport;
 use crate::solver::pipeline;
 use crate::solver::profile::Clock;
-use crate::solver::scratch_pool;
 use crate::solver::world::World;
 use crate::state::colliders::Impulse;
 use crate::state::events::Event;
@@ -125,7 +123,7 @@ use crate::state::events::Event;
 pub struct Cloth {
     /// The descriptor that the cloth was made from; [`Cloth::reset`] builds the rest state from it
     /// again.
-    desc: Shared<ClothDesc>,
+    desc: ClothDesc,
     world: TrackedWorld,
     outputs: Outputs,
     report: MeshReport,
@@ -147,7 +145,7 @@ impl Clone for Cloth {
         world.reserve();
         Self {
             desc: self.desc.clone(),
-            outputs: self.outputs.of_clone(&world),
+            outputs: Outputs::new(&world, &self.desc),
             world,
             report: self.report,
             pins_changed: self.pins_changed,
@@ -223,7 +221,7 @@ impl Cloth {
         let outputs = Outputs::new(&world, &desc);
         let history = ChangeHistory::new(world.has_tear_reserve);
         Ok(Self {
-            desc: Shared::new(desc),
+            desc,
             world: TrackedWorld::new(world),
             outputs,
             report,
@@ -356,7 +354,7 @@ impl Cloth {
                 if pins_changed {
                     world.rebuild_tethers();
                 }
-                scratch_pool::with_lent(world, |world| run_ticks(world, ticks))
+                run_ticks(world, ticks)
             })
         });
         if self.world.mesh.vertex_count() != vertices {

@@ -16,5 +16,4 @@ mod pins;
 mod poses;
 mod refusals;
 mod scenes;
-mod scratch_pool;
 mod source_shape;
