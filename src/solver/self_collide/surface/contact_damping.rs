@@ -25,9 +25,12 @@ pub(crate) fn damp_velocities(world: &mut World) {
         contacts, active, open, mobility, motion, vectors, intersections, ..
     } = &mut *surface;
     contact_solver::count_support(contacts, active, mobility, &world.particles.w);
-    let is_free = world.scratch.contacts.collider_contacts.is_empty()
-        && !interleaved::has_fixed_particle(&motion.start);
+    let is_supported = !world.scratch.contacts.collider_contacts.is_empty();
+    let is_free = !is_supported && !interleaved::has_fixed_particle(&motion.start);
     let p = &mut world.particles;
+    let velocities = [&mut p.v, &mut p.v_extrapolated];
+    let displacement = (!is_supported).then_some(&p.displacement);
+    contact_solver::remove_rebound(contacts, active, displacement, velocities, h);
     contact_solver::detect_impacts(active, open);
     for columns in [&mut p.v, &mut p.v_extrapolated, &mut p.displacement] {
         contact_solver::remove_impact_velocities(contacts, active, open, columns);

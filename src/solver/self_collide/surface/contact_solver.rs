@@ -16,8 +16,8 @@
 //! The target of a contact is the smaller of its distance at the start and its gap. So the solver
 //! only stops the approach of both sides; [`correct_penetration`] moves sides that are nearer than
 //! the gap apart, slowly and without velocity. After velocities were derived,
-//! [`remove_impact_velocities`] makes impacts inelastic, and [`damp_contacts`] damps relative motion
-//! at contacts and keeps contacts that push from rebounding.
+//! [`remove_rebound`] and [`remove_impact_velocities`] make impacts inelastic, and [`damp_contacts`]
+//! damps relative motion at contacts.
 //!
 //! Reads contacts and masses; writes positions, velocities and contact forces.
 //!
@@ -372,11 +372,43 @@ pub(crate) fn remove_impact_velocities(
     }
 }
 
+/// Keeps contacts that push from rebounding. If sides that approached stop within one substep, BDF2
+/// gives them half of their former velocity in the opposite direction. What they separate faster than
+/// they moved in this substep is removed from the velocities. If a collider supports the cloth, all
+/// of it is removed: otherwise a stack of many layers would bounce on its collider for ever.
+///
+/// `displacement` is that of this substep [m], `None` if a collider supports the cloth; `h` is the
+/// length of the substep [s]. Sweeps in both directions, so that the rebound of a stack reaches its
+/// collider.
+pub(crate) fn remove_rebound(
+    contacts: &[Contact],
+    active: &[ActiveContact],
+    displacement: Option<&Columns>,
+    velocities: [&mut Columns; 2],
+    h: f32,
+) {
+    let [v, v_extrapolated] = velocities;
+    for state in active.iter().chain(active.iter().rev()) {
+        if state.normal_impulse <= 0.0 {
+            continue;
+        }
+        let contact = &contacts[state.contact as usize];
+        let along = |columns: &Columns| relative_velocity(contact, columns).dot(contact.n);
+        let moved = displacement.map_or(0.0, |displacement| max(along(displacement), 0.0));
+        let rebound = along(v) - moved / h;
+        if rebound > 0.0 {
+            let impulse = contact.n * (-rebound * state.effective_mass);
+            for (id, response) in contact.ids.iter().zip(state.response) {
+                v.add(*id as usize, impulse * response);
+                v_extrapolated.add(*id as usize, impulse * response);
+            }
+        }
+    }
+}
+
 /// Damps relative motion at contacts that push: along the normal, and in all directions where
 /// friction sticks. Cloth dissipates energy at contacts, by the air between layers and by the
-/// friction of fibres. Sides that push each other do not separate, so all of such a velocity is
-/// removed: it is the rebound that BDF2 makes of a stop within one substep. Without this a stack of
-/// many layers would bounce on its collider for ever.
+/// friction of fibres.
 ///
 /// With `damp_spin`, each side loses spin as well. That does not conserve angular momentum, so it
 /// is for cloth that is held or touches a collider. `v` has the velocity (or displacement) of each
@@ -390,8 +422,10 @@ pub(crate) fn damp_contacts(
     damp_spin: bool,
 ) {
     let share = h / (h + DAMPING_TIME);
-    let pushes = |state: &&ActiveContact| state.normal_impulse > 0.0;
-    for state in active.iter().filter(pushes) {
+    for state in active {
+        if state.normal_impulse <= 0.0 {
+            continue;
+        }
         let contact = &contacts[state.contact as usize];
         if damp_spin {
             let (one, other) = contact.ids.split_at(contact.kind as usize);
@@ -399,23 +433,8 @@ pub(crate) fn damp_contacts(
         }
         let relative = relative_velocity_wide(contact, v);
         let n = Wide4::from_vec3(contact.n);
-        let separation = relative.dot3(n);
-        let normal = n.scale(if separation > 0.0 { separation } else { separation * share });
-        let removed = if state.sticks {
-            normal + (relative - n.scale(separation)).scale(share)
-        } else {
-            normal
-        };
-        state.apply_impulse(contact, v, removed.scale(-state.effective_mass));
-    }
-    // Once more in the other direction, so that the rebound of a stack reaches its collider.
-    for state in active.iter().rev().filter(pushes) {
-        let contact = &contacts[state.contact as usize];
-        let n = Wide4::from_vec3(contact.n);
-        let separation = relative_velocity_wide(contact, v).dot3(n);
-        if separation > 0.0 {
-            state.apply_impulse(contact, v, n.scale(-separation * state.effective_mass));
-        }
+        let relative = if state.sticks { relative } else { n.scale(relative.dot3(n)) };
+        state.apply_impulse(contact, v, relative.scale(-state.effective_mass * share));
     }
 }
 
