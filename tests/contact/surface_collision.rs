@@ -116,9 +116,9 @@ fn stacked_sheets_rest_one_thickness_apart() {
 /// Contacts that had pushed before the stack landed rebounded, so a stack of eight layers bounced on
 /// its floor for ever.
 #[test]
-fn a_stack_of_many_sheets_rests() {
-    for (sheets, thickness, shift) in [(8, 0.002, 0.0), (8, 0.0003, 0.0037), (12, 0.002, 0.0)] {
-        let mut desc = stacked_sheets(sheets, 12, 0.3, |sheet, x| {
+fn a_stack_of_eight_sheets_rests() {
+    for (thickness, shift) in [(0.002, 0.0), (0.0003, 0.0037)] {
+        let mut desc = stacked_sheets(8, 12, 0.3, |sheet, x| {
             let aside = Vec3::new(1.0, 0.0, 0.37) * shift * sheet as f32;
             x + aside + Vec3::Y * (0.02 + 0.01 * sheet as f32)
         });
@@ -126,7 +126,7 @@ fn a_stack_of_many_sheets_rests() {
         let mut cloth = Cloth::mesh(&desc).unwrap();
         cloth.add_collider(&floor_at(0.0)).unwrap();
         cloth.step(300);
-        let name = format!("{sheets} sheets of {thickness} m, shifted by {shift} m");
+        let name = format!("sheets of {thickness} m, shifted by {shift} m");
         let speed = rms_speed(&cloth);
         println!("{name}: {speed} m/s");
         assert!(speed < 1.0e-3, "{name}: {speed} m/s");
