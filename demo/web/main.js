@@ -251,6 +251,8 @@ function connectOverlays() {
 try {
   // Browsers load and compile the module while they start to draw.
   const ready = init({ module_or_path: new URL("./muslin_demo_bg.wasm", import.meta.url) });
+  // Without WebGL nobody awaits it.
+  ready.catch(() => {});
   const gl = context(canvas);
   if (gl) {
     await ready;

@@ -372,14 +372,14 @@ pub(crate) fn remove_impact_velocities(
     }
 }
 
-/// Keeps contacts that push from rebounding. If sides that approached stop within one substep, BDF2
-/// gives them half of their former velocity in the opposite direction. What they separate faster than
-/// they moved in this substep is removed from the velocities. If a collider supports the cloth, all
-/// of it is removed: otherwise a stack of many layers would bounce on its collider for ever.
+/// Removes the rebound of contacts that push. If two sides approach and stop within one substep, BDF2
+/// gives them half of their former velocity in the opposite direction. The velocity at which they
+/// separate is limited to that of this substep's displacement. If a collider supports the cloth, it is
+/// limited to zero: otherwise a stack of many layers would bounce on its collider for ever.
 ///
-/// `displacement` is that of this substep [m], `None` if a collider supports the cloth; `h` is the
-/// length of the substep [s]. Sweeps in both directions, so that the rebound of a stack reaches its
-/// collider.
+/// `displacement` has the displacement of each particle in this substep [m]; it is `None` if a collider
+/// supports the cloth. `h` is the length of the substep [s]. The contacts are visited in both
+/// directions, so that the rebound of a stack is passed on to its collider.
 pub(crate) fn remove_rebound(
     contacts: &[Contact],
     active: &[ActiveContact],
