@@ -14,6 +14,7 @@ use crate::cloth::interpolated_surface::InterpolatedSurface;
 use crate::math::float_env::with_float_env;
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
+use crate::math::shared::Shared;
 use crate::mesh::split_edge::CutSite;
 use crate::solver::output::normals;
 use crate::solver::world::World;
@@ -36,21 +37,21 @@ pub(crate) struct Outputs {
     /// Normals and tangents per particle, at the blend of the last request.
     pub surface: InterpolatedSurface,
     /// Texture coordinates per vertex.
-    pub uvs: Vec<Vec2>,
+    pub uvs: Shared<Vec<Vec2>>,
     /// Texture coordinates of each rest vertex (vertices before any split; cuts append some).
-    rest_uvs: Vec<Vec2>,
+    rest_uvs: Shared<Vec<Vec2>>,
     /// The vertex of the descriptor that each rest vertex came from.
-    rest_sources: Vec<u32>,
+    rest_sources: Shared<Vec<u32>>,
     /// The vertex of the descriptor that each vertex came from.
-    pub sources: Vec<u32>,
+    pub sources: Shared<Vec<u32>>,
     /// Whether each vertex is on a border that a tear or cut made.
-    pub frayed: Vec<bool>,
+    pub frayed: Shared<Vec<bool>>,
     /// The particle of each vertex.
-    pub particles: Vec<u32>,
+    pub particles: Shared<Vec<u32>>,
     /// Scratch lists for the next topology, compared with the current ones to find what changed.
     pending: PendingAttributes,
     /// Three vertices per triangle.
-    pub indices: Vec<u32>,
+    pub indices: Shared<Vec<u32>>,
 }
 
 heap_bytes!(
@@ -95,19 +96,44 @@ impl Outputs {
             normals: Vec::new(),
             are_normals_current: false,
             surface: InterpolatedSurface::with_capacity(world.allocated_particles()),
-            uvs: Vec::new(),
-            rest_uvs: Vec::new(),
-            rest_sources: Vec::new(),
-            sources: Vec::new(),
-            frayed: Vec::new(),
-            particles: Vec::new(),
+            uvs: Shared::default(),
+            rest_uvs: Shared::default(),
+            rest_sources: Shared::default(),
+            sources: Shared::default(),
+            frayed: Shared::default(),
+            particles: Shared::default(),
             pending: PendingAttributes::default(),
-            indices: Vec::new(),
+            indices: Shared::default(),
         };
         outputs.reserve(world);
         outputs.set_uvs(desc);
         outputs.update_topology(world);
         outputs.update_positions(world);
+        outputs
+    }
+
+    /// Makes the lists of a clone. Those that only tears and cuts change are shared, unless the cloth
+    /// has memory for tears.
+    pub fn of_clone(&self, world: &World) -> Self {
+        let mut outputs = Self {
+            positions: self.positions.clone(),
+            relative_positions: Vec::new(),
+            are_relative_positions_current: false,
+            normals: Vec::new(),
+            are_normals_current: false,
+            surface: self.surface.with_same_capacity(),
+            uvs: self.uvs.clone(),
+            rest_uvs: self.rest_uvs.clone(),
+            rest_sources: self.rest_sources.clone(),
+            sources: self.sources.clone(),
+            frayed: self.frayed.clone(),
+            particles: self.particles.clone(),
+            pending: PendingAttributes::default(),
+            indices: self.indices.clone(),
+        };
+        if world.has_tear_reserve {
+            outputs.reserve(world);
+        }
         outputs
     }
 
@@ -134,8 +160,9 @@ impl Outputs {
 
     /// Sets the texture coordinates and sources of the descriptor's vertices.
     fn set_uvs(&mut self, desc: &ClothDesc) {
-        self.rest_uvs = with_float_env(|| desc.uvs());
-        self.rest_sources = (0..self.rest_uvs.len() as u32).collect();
+        let uvs = with_float_env(|| desc.uvs());
+        self.rest_sources = Shared::new((0..uvs.len() as u32).collect());
+        self.rest_uvs = Shared::new(uvs);
     }
 
     /// Copies the current positions and marks the normals as out of date.
@@ -199,12 +226,11 @@ impl Outputs {
         .include_vertices(changed_range(&self.particles, &pending.particles));
         self.surface.invalidate_topology();
         // Copy instead of swap: hosts hold pointers to these lists.
-        self.uvs.clone_from(&pending.uvs);
-        self.sources.clone_from(&pending.sources);
-        self.frayed.clone_from(&pending.frayed);
-        self.particles.clone_from(&pending.particles);
-        self.indices.clear();
-        self.indices.extend_from_slice(indices);
+        replace(&mut self.uvs, &pending.uvs);
+        replace(&mut self.sources, &pending.sources);
+        replace(&mut self.frayed, &pending.frayed);
+        replace(&mut self.particles, &pending.particles);
+        replace(&mut self.indices, indices);
         if !world.has_tear_reserve {
             self.pending = PendingAttributes::default();
         }
@@ -226,11 +252,15 @@ impl Outputs {
     fn update_rest_vertices(&mut self, world: &World) {
         let RestVertices { original, crossings, .. } = RestVertices::of(world);
         let known = original + crossings.len();
-        self.rest_uvs.truncate(known);
-        self.rest_sources.truncate(known);
+        if self.rest_uvs.len() > known {
+            self.rest_uvs.truncate(known);
+            self.rest_sources.truncate(known);
+        }
         for crossing in &crossings[self.rest_uvs.len() - original..] {
-            self.rest_uvs.push(crossing.interpolate(|end| self.rest_uvs[end as usize]));
-            self.rest_sources.push(self.rest_sources[crossing.nearest_end() as usize]);
+            let uv = crossing.interpolate(|end| self.rest_uvs[end as usize]);
+            let source = self.rest_sources[crossing.nearest_end() as usize];
+            self.rest_uvs.push(uv);
+            self.rest_sources.push(source);
         }
     }
 
@@ -242,6 +272,14 @@ impl Outputs {
             normals::scatter_to_vertices(world, &self.surface.normals, &mut self.normals);
             self.are_normals_current = true;
         }
+    }
+}
+
+/// Replaces the entries of a list, unless they are the same.
+fn replace<T: Copy + PartialEq>(list: &mut Shared<Vec<T>>, new: &[T]) {
+    if **list != *new {
+        list.clear();
+        list.extend_from_slice(new);
     }
 }
 

@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::math::float_env::with_float_env;
 use crate::model::material::Material;
 use crate::solver::collide;
+use crate::solver::scratch_pool;
 use crate::solver::self_collide::surface::surface_stages;
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
@@ -56,8 +57,10 @@ impl Cloth {
                 if had_no_surface_collision {
                     world.is_tangled = true;
                     let count = world.particles.len() as u32;
-                    collide::begin_between_ticks(world);
-                    surface_stages::separate_splits(world, 0..count);
+                    scratch_pool::with_lent(world, |world| {
+                        collide::begin_between_ticks(world);
+                        surface_stages::separate_splits(world, 0..count);
+                    });
                 }
             });
         }

@@ -91,8 +91,9 @@ pub struct Stats {
     pub substeps: u32,
     /// Whether the cloth sleeps, see [`Settings::sleep_speed`](crate::Settings).
     pub asleep: bool,
-    /// Memory of the cloth [bytes]: what it has allocated, and itself. Contacts with colliders are
-    /// estimated, and the shapes of colliders not counted.
+    /// Memory of the cloth [bytes]: what it has allocated, and itself. What clones share counts in equal
+    /// parts for each. Not counted are the shapes of colliders, and the scratch buffers of ticks, which
+    /// each thread has once, for the largest cloth that it has made or stepped.
     pub bytes: u64,
     /// Time of each stage ([`Stage::ALL`](crate::Stage)) in the last call that ran ticks [s]; zeros
     /// without a clock ([`Cloth::set_clock`]).
@@ -265,7 +266,7 @@ impl Cloth {
         let bytes = size_of::<Self>()
             + self.desc.heap_bytes()
             + self.world.heap_bytes()
-            + self.world.contact_bytes()
+            + self.world.collider_bytes()
             + self.outputs.heap_bytes()
             + self.history.heap_bytes()
             + self.ray_tree.bytes();

@@ -15,6 +15,7 @@ pub(crate) mod hasher;
 pub(crate) mod heap_bytes;
 pub(crate) mod pack;
 pub(crate) mod reserve;
+pub(crate) mod shared;
 pub(crate) mod shared_points;
 pub(crate) mod simd;
 pub(crate) mod sort;

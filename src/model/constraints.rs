@@ -16,6 +16,7 @@
 //! result.
 
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::shared::Shared;
 use crate::math::sort::sort_groups;
 use crate::mesh::{Corner, Mesh, NONE, next_corner, prev_corner, triangle_of};
 use crate::model::chains::Chains;
@@ -44,7 +45,7 @@ pub(crate) struct Constraints {
     /// Hinges, which resist bending on a mesh that is not a grid.
     pub hinges: Hinges,
     /// Whether the definition of a link in `links` has changed since creation.
-    pub(super) is_changed: Vec<bool>,
+    pub(super) is_changed: Shared<Vec<bool>>,
     /// Links added by tears and cuts, in order of creation, see `dynamic_links`.
     pub dynamic: Links,
     /// Active dynamic links by colour; valid after `rebuild_sparse`.
@@ -55,11 +56,11 @@ pub(crate) struct Constraints {
     pub(super) dynamic_sites: Vec<[u32; 4]>,
     /// Number of the link along the edge that starts at each corner, see `dynamic_links`; `NONE` on
     /// the second side of an inner edge.
-    pub(super) link_of_edge: Vec<u32>,
+    pub(super) link_of_edge: Shared<Vec<u32>>,
     /// Links that depend on each original vertex (CSR):
     /// `links_by_site[first_of_site[v]..first_of_site[v + 1]]`.
-    pub(super) first_of_site: Vec<u32>,
-    pub(super) links_by_site: Vec<u32>,
+    pub(super) first_of_site: Shared<Vec<u32>>,
+    pub(super) links_by_site: Shared<Vec<u32>>,
     /// Dynamic links of each site, as linked lists.
     pub(super) dynamic_head: Vec<u32>,
     pub(super) dynamic_next: Vec<[u32; 4]>,
@@ -284,17 +285,35 @@ impl Constraints {
             rows: None,
             chains: Chains::default(),
             hinges: Hinges::none(),
-            is_changed,
+            is_changed: Shared::new(is_changed),
             dynamic,
             sparse,
             coloring,
             dynamic_sites: Vec::with_capacity(opening_capacity),
-            link_of_edge,
-            first_of_site,
-            links_by_site,
+            link_of_edge: Shared::new(link_of_edge),
+            first_of_site: Shared::new(first_of_site),
+            links_by_site: Shared::new(links_by_site),
             dynamic_head: vec![NONE; mesh.original_count as usize],
             dynamic_next: Vec::with_capacity(opening_capacity),
             thread_directions: None,
+        }
+    }
+
+    /// Makes all that damping changes unique.
+    pub fn make_lengths_unique(&mut self) {
+        self.links.make_lengths_unique();
+        self.dynamic.make_lengths_unique();
+        self.chains.blocks.make_unique();
+    }
+
+    /// Makes all that tears change unique.
+    pub fn make_unique(&mut self) {
+        self.links.make_unique();
+        self.is_changed.make_unique();
+        self.link_of_edge.make_unique();
+        self.chains.blocks.make_unique();
+        if let Some(rows) = &mut self.rows {
+            rows.mask.make_unique();
         }
     }
 

@@ -14,6 +14,7 @@
 use crate::math::column::Column;
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::min;
+use crate::math::shared::Shared;
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::link_ends::LinkEnds;
 use crate::model::maps::{Map, Maps};
@@ -88,15 +89,15 @@ pub(crate) struct Links {
     pub a: LinkEnds,
     pub b: LinkEnds,
     /// Rest length [m].
-    pub rest: Column,
+    pub rest: Shared<Column>,
     /// Inverse spring constant [m/N]; 0 is rigid.
-    pub compliance: Column,
+    pub compliance: Shared<Column>,
     /// Lagrange multiplier accumulated in this substep.
     pub lambda: Column,
     /// Whether the link acts; false once its support is gone.
     pub active: Vec<bool>,
     /// Definition.
-    pub spec: Vec<LinkSpec>,
+    pub spec: Shared<Vec<LinkSpec>>,
 }
 
 heap_bytes!(Links { a, b, rest, compliance, lambda, active, spec } plain {});
@@ -104,6 +105,20 @@ heap_bytes!(Links { a, b, rest, compliance, lambda, active, spec } plain {});
 impl Links {
     pub fn len(&self) -> usize {
         self.rest.len()
+    }
+
+    /// Makes all that damping changes unique.
+    pub fn make_lengths_unique(&mut self) {
+        self.rest.make_unique();
+        self.compliance.make_unique();
+    }
+
+    /// Makes all that tears change unique.
+    pub fn make_unique(&mut self) {
+        self.make_lengths_unique();
+        self.a.make_unique();
+        self.b.make_unique();
+        self.spec.make_unique();
     }
 
     pub fn kind(&self, link: usize) -> LinkKind {
@@ -160,11 +175,14 @@ impl Links {
     pub fn update_compliance(&mut self, link: usize, material: &Material, maps: &Maps) {
         let spec = &self.spec[link];
         let compliance = compliance(spec, material);
-        self.compliance[link] = if spec.kind == LinkKind::Bend || compliance == 0.0 {
+        let compliance = if spec.kind == LinkKind::Bend || compliance == 0.0 {
             compliance
         } else {
             painted_compliance(compliance, maps.mean(Map::Stretch, &[self.a[link], self.b[link]]))
         };
+        if self.compliance[link] != compliance {
+            self.compliance[link] = compliance;
+        }
     }
 }
 

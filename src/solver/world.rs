@@ -17,6 +17,7 @@
 
 use crate::geometry::triangle::corner_areas;
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::shared::Shared;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::GridFrame;
@@ -63,7 +64,7 @@ pub(crate) const MIN_PARTICLES_PER_THREAD: usize = 16_384;
 #[derive(Clone, Debug)]
 pub(crate) struct World {
     /// Triangles over particles and their adjacency. Written by tears and cuts.
-    pub mesh: Mesh,
+    pub mesh: Shared<Mesh>,
     /// Maps render vertices to particles; `None` if each particle is one vertex. Written by tears
     /// and cuts.
     pub seams: Option<Seams>,
@@ -88,14 +89,14 @@ pub(crate) struct World {
     /// `tether_slack`; cleared when pins or positions change.
     pub is_pin_stretch_current: bool,
     /// Rest position of each site, relative to `rest_origin` [m]. Cuts append sites.
-    pub rest: Vec<Vec3>,
+    pub rest: Shared<Vec<Vec3>>,
     /// The origin that the cloth was made with, see `solver::rebase` [m].
     pub rest_origin: Vec3,
     /// Edge points where cuts made sites; these sites follow those of the original vertices.
     /// Written by cuts.
     pub cut_sites: Vec<CutSite>,
     /// Share of its triangle's rest area that belongs to each corner [m²]. Written by cuts.
-    pub corner_area: Vec<[f32; 3]>,
+    pub corner_area: Shared<Vec<[f32; 3]>>,
     /// Origin, axes and spacing [m] of the rest grid; `None` for other meshes.
     pub grid_frame: Option<GridFrame>,
     /// Two triangles per grid cell, for sums over triangles in SIMD lanes; `None` for other meshes.
@@ -103,7 +104,7 @@ pub(crate) struct World {
     pub grid_cells: Option<GridCells>,
     /// Bending elements of a grid; `None` for other meshes, which bend at hinges. Written by tears
     /// and cuts.
-    pub plate_elements: Option<PlateElements>,
+    pub plate_elements: Option<Shared<PlateElements>>,
     /// Plastic rest angles [rad] of the bending elements, and their hardening. Written by
     /// `bend::update_folds` at the end of the tick, and by creases that the host sets.
     pub folds: Folds,
@@ -303,7 +304,7 @@ impl World {
     /// Computes all masses [kg] from rest areas, density and mass scales, then all inverse masses.
     pub fn compute_masses(&mut self) {
         self.particles.mass.fill(0.0);
-        for (triangle, areas) in self.mesh.triangles.iter().zip(&self.corner_area) {
+        for (triangle, areas) in self.mesh.triangles.iter().zip(self.corner_area.iter()) {
             for (vertex, area) in triangle.iter().zip(areas) {
                 self.particles.mass[*vertex as usize] += area * self.material.density;
             }
@@ -316,9 +317,9 @@ impl World {
     pub fn refresh_corner_areas(&mut self, uncut: &Mesh) {
         let (mesh, rest) = (&self.mesh, &self.rest);
         let sites = |triangle: &[u32; 3]| triangle.map(|v| mesh.source[v as usize]);
-        self.corner_area.resize(mesh.triangles.len(), [0.0; 3]);
-        for (at, (triangle, areas)) in mesh.triangles.iter().zip(&mut self.corner_area).enumerate()
-        {
+        let corner_area = &mut *self.corner_area;
+        corner_area.resize(mesh.triangles.len(), [0.0; 3]);
+        for (at, (triangle, areas)) in mesh.triangles.iter().zip(corner_area).enumerate() {
             let sites = sites(triangle);
             if uncut.triangles.get(at) != Some(&sites) {
                 *areas = corner_areas(sites.map(|site| rest[site as usize]));

@@ -35,6 +35,13 @@ impl InterleavedParticles {
         self.w.reserve_total(particles);
     }
 
+    /// Removes all particles.
+    pub fn clear(&mut self) {
+        self.points.clear();
+        self.w.clear();
+        self.is_current = false;
+    }
+
     /// Copies positions and inverse masses from their columns.
     pub fn gather(&mut self, p: &Particles) {
         self.points.clear();

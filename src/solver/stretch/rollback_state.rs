@@ -15,10 +15,3 @@ pub(crate) struct RollbackState {
 }
 
 heap_bytes!(RollbackState { positions, before } plain {});
-
-impl RollbackState {
-    /// Allocates a buffer for `particles` particles.
-    pub fn with_capacity(particles: usize) -> Self {
-        Self { positions: Columns::with_capacity(particles), before: Columns::default() }
-    }
-}
