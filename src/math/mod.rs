@@ -19,6 +19,7 @@ pub(crate) mod shared;
 pub(crate) mod shared_points;
 pub(crate) mod simd;
 pub(crate) mod sort;
+pub(crate) mod swap;
 pub(crate) mod threads;
 pub(crate) mod trig;
 pub(crate) mod wide4;

@@ -9,6 +9,7 @@
 
 use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::swap::swap;
 use crate::mesh::split_vertex::OpenedEdge;
 use crate::solver::bend::bend_scratch::BendScratch;
 use crate::solver::collide::contact_scratch::ContactScratch;
@@ -21,7 +22,6 @@ use crate::solver::stretch::rollback_state::RollbackState;
 use crate::solver::topology::piece_labels::PieceLabels;
 use crate::solver::topology::piece_members::PieceGroups;
 use crate::solver::topology::tear_scratch::TearScratch;
-use core::mem::swap;
 use core::sync::atomic::{AtomicUsize, Ordering};
 use glam::Vec3;
 
@@ -99,8 +99,14 @@ pub(crate) struct TickScratch {
 }
 
 heap_bytes!(
-    TickScratch { acceleration, relative_wind, displacement, predicted, initial_velocity, tether_pins, effective_mass, correction, anchor_moved, end_weights, interleaved, lines, bend, damping, contacts, tear, rollback, opened_edges, pieces, piece_groups, piece_stack }
-    plain { owner, line_lengths, expected_momentum, rests_on_collider }
+    TickScratch {
+        tether_pins, effective_mass, anchor_moved, end_weights, bend, damping, contacts, tear,
+        opened_edges, pieces, piece_groups, piece_stack,
+    } plain {
+        owner, line_lengths, acceleration, relative_wind, displacement, predicted,
+        initial_velocity, correction, interleaved, lines, rollback, expected_momentum,
+        rests_on_collider,
+    }
 );
 
 /// The identity of a cloth among all those that use pools of scratch buffers. A clone is another

@@ -28,6 +28,7 @@ use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::simd::Level;
 use crate::math::{max, same_bits};
+use crate::math::swap::swap;
 use crate::model::bend_scale::{BendScale, BendScaleKey};
 use crate::model::plate_elements::{PerKind, PlateElements};
 use crate::solver::bend::banded::VectorColumns;
@@ -60,8 +61,6 @@ struct PlateBuffers {
     total: [VectorColumns; 2],
 }
 
-heap_bytes!(PlateBuffers { curve, shifted, force, total } plain {});
-
 /// Buffers, and factors that are valid until pins, masses or stiffness change.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PlateScratch {
@@ -81,8 +80,8 @@ pub(crate) struct PlateScratch {
 
 heap_bytes!(
     PlateScratch {
-        buffers, weight, factors, twist, w, mass,
-    } plain { bound, revision, scale_key }
+        weight, factors, twist, w, mass,
+    } plain { buffers, bound, revision, scale_key }
 );
 
 /// Parameters of one solve.
@@ -124,7 +123,7 @@ impl PlateScratch {
 
     /// Exchanges the buffers of one tick with those of `other`.
     pub fn swap_lent(&mut self, other: &mut Self) {
-        core::mem::swap(&mut self.buffers, &mut other.buffers);
+        swap(&mut self.buffers, &mut other.buffers);
         self.twist.swap_lent(&mut other.twist);
     }
 

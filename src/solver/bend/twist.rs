@@ -19,6 +19,7 @@ use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::math::simd::{Level, leveled};
+use crate::math::swap::swap;
 use crate::model::plate_elements::PlateElements;
 use crate::solver::bend::banded::VectorColumns;
 
@@ -37,8 +38,6 @@ struct TwistBuffers {
     change: VectorColumns,
 }
 
-heap_bytes!(TwistBuffers { lambda, start, start_twist, rest, change } plain {});
-
 /// Buffers of the twist, and factors that are valid until pins, masses or stiffness change.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Twist {
@@ -51,7 +50,7 @@ pub(crate) struct Twist {
     columns: [TridiagonalFactor; 2],
 }
 
-heap_bytes!(Twist { buffers, compliance, rows, columns } plain {});
+heap_bytes!(Twist { compliance, rows, columns } plain { buffers });
 
 /// L D Lᵀ factors of tridiagonal systems.
 #[derive(Clone, Debug, Default)]
@@ -96,7 +95,7 @@ impl Twist {
 
     /// Exchanges the buffers of one tick with those of `other`.
     pub fn swap_lent(&mut self, other: &mut Self) {
-        core::mem::swap(&mut self.buffers, &mut other.buffers);
+        swap(&mut self.buffers, &mut other.buffers);
     }
 
     fn lists_of_tick(&mut self) -> impl Iterator<Item = &mut Vec<f32>> {

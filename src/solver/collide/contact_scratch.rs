@@ -9,6 +9,7 @@
 
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
+use crate::math::swap::swap;
 use crate::solver::collide::body_motion::BodyMotion;
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::inside_count::InsideCount;
@@ -18,7 +19,6 @@ use crate::solver::collide::nearby_blocks::NearbyBlocks;
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use crate::solver::collide::room::Room;
 use crate::state::colliders::Impulse;
-use core::mem::swap;
 use glam::Vec3;
 
 /// Buffers for collider contacts. They are empty until the first collider is added.
@@ -151,10 +151,9 @@ impl ContactScratch {
 }
 
 heap_bytes!(
-    ContactScratch {
-        nearby, long, body_motions, collider_contacts, projections, net_corrections, projected,
-        impulses, late_pushes, clearance, close_pairs, local_positions, contact_slots, is_inside,
-    } plain {
-        max_contacts, arrived, first_pusher, pushes, long_pairs, room, in_solid_meshes,
+    ContactScratch { nearby, long } plain {
+        body_motions, collider_contacts, max_contacts, projections, net_corrections, projected,
+        impulses, arrived, first_pusher, late_pushes, clearance, pushes, close_pairs, long_pairs,
+        local_positions, room, contact_slots, is_inside, in_solid_meshes,
     }
 );

@@ -17,11 +17,11 @@ use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::max;
 use crate::math::reserve::ReserveTotal;
+use crate::math::swap::swap;
 use crate::solver::collide::mid_phase::{CandidateRange, Candidates, ColliderPairs};
 use crate::solver::collide::particle_motions::MotionBound;
 use crate::state::colliders::ColliderBody;
 use crate::state::pose::Pose;
-use core::mem::swap;
 use glam::Vec3;
 
 /// Particles or triangles in a block.
@@ -115,11 +115,10 @@ pub(super) fn of_deforming<T>(list: &[T]) -> &[T] {
 
 heap_bytes!(
     NearbyBlocks {
-        entries, blocks, positions_at_rebuild, displacements, predicted, particle_bounds,
-        triangle_bounds, moved, searched,
+        entries, blocks, positions_at_rebuild, displacements, particle_bounds, triangle_bounds,
     } plain {
-        moment_of_rebuild, triangles_at_rebuild, longest_edge, is_stale, candidates, earlier,
-        motion_bounds,
+        moment_of_rebuild, predicted, triangles_at_rebuild, longest_edge, is_stale, candidates,
+        earlier, moved, searched, motion_bounds,
     }
 );
 

@@ -9,7 +9,6 @@
 //! date.
 
 use crate::math::columns::Columns;
-use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::solver::particle_stage::access::ParticleAccess;
 use crate::state::particles::Particles;
@@ -25,8 +24,6 @@ pub(crate) struct InterleavedParticles {
     /// Inverse mass of each particle [1/kg].
     pub w: Vec<f32>,
 }
-
-heap_bytes!(InterleavedParticles { points, w } plain { is_current });
 
 impl InterleavedParticles {
     /// Grows the capacity to `particles` in all.

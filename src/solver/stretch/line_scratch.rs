@@ -5,7 +5,6 @@
 //! a block without a link use it.
 
 use crate::math::columns::Columns;
-use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::solver::stretch::line_step::LineStep;
 
@@ -22,8 +21,6 @@ pub(crate) struct LineScratch {
     /// The steps of one block, after the sentinel.
     pub steps: Vec<LineStep>,
 }
-
-heap_bytes!(LineScratch { points, start_points, start_columns, steps } plain {});
 
 /// How long the lists of a cloth are.
 #[derive(Clone, Copy, Debug, Default)]
