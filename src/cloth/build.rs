@@ -294,10 +294,8 @@ fn build_world(
         grid_cells: cells,
         plate_elements: plates.map(Shared::new),
         folds,
-        particle_collision: None,
         warm_start: WarmStart::default(),
         is_tangled: true,
-        surface_collision: None,
     };
     world.label_pieces();
     for particle in pinned {

@@ -36,29 +36,37 @@ pub(crate) struct Outputs {
     pub are_normals_current: bool,
     /// Normals and tangents per particle, at the blend of the last request.
     pub surface: InterpolatedSurface,
-    /// Texture coordinates per vertex.
-    pub uvs: Shared<Vec<Vec2>>,
-    /// Texture coordinates of each rest vertex (vertices before any split; cuts append some).
-    rest_uvs: Shared<Vec<Vec2>>,
-    /// The vertex of the descriptor that each rest vertex came from.
-    rest_sources: Shared<Vec<u32>>,
-    /// The vertex of the descriptor that each vertex came from.
-    pub sources: Shared<Vec<u32>>,
-    /// Whether each vertex is on a border that a tear or cut made.
-    pub frayed: Shared<Vec<bool>>,
-    /// The particle of each vertex.
-    pub particles: Shared<Vec<u32>>,
+    /// What only tears and cuts change.
+    pub attributes: Shared<VertexAttributes>,
     /// Scratch lists for the next topology, compared with the current ones to find what changed.
     pending: PendingAttributes,
-    /// Three vertices per triangle.
-    pub indices: Shared<Vec<u32>>,
 }
 
 heap_bytes!(
-    Outputs {
-        positions, relative_positions, normals, surface, uvs, rest_uvs, rest_sources, sources,
-        frayed, particles, pending, indices,
-    } plain { are_relative_positions_current, are_normals_current }
+    Outputs { positions, relative_positions, normals, surface, attributes, pending } plain { are_relative_positions_current, are_normals_current }
+);
+
+/// Attributes of the vertices and triangles that clones share.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct VertexAttributes {
+    /// Texture coordinates per vertex.
+    pub uvs: Vec<Vec2>,
+    /// Texture coordinates of each rest vertex (vertices before any split; cuts append some).
+    rest_uvs: Vec<Vec2>,
+    /// The vertex of the descriptor that each rest vertex came from.
+    rest_sources: Vec<u32>,
+    /// The vertex of the descriptor that each vertex came from.
+    pub sources: Vec<u32>,
+    /// Whether each vertex is on a border that a tear or cut made.
+    pub frayed: Vec<bool>,
+    /// The particle of each vertex.
+    pub particles: Vec<u32>,
+    /// Three vertices per triangle.
+    pub indices: Vec<u32>,
+}
+
+heap_bytes!(
+    VertexAttributes { uvs, rest_uvs, rest_sources, sources, frayed, particles, indices } plain {}
 );
 
 /// Per-vertex attributes of a new topology, before they replace the current ones. Empty between
@@ -96,14 +104,8 @@ impl Outputs {
             normals: Vec::new(),
             are_normals_current: false,
             surface: InterpolatedSurface::with_capacity(world.allocated_particles()),
-            uvs: Shared::default(),
-            rest_uvs: Shared::default(),
-            rest_sources: Shared::default(),
-            sources: Shared::default(),
-            frayed: Shared::default(),
-            particles: Shared::default(),
+            attributes: Shared::default(),
             pending: PendingAttributes::default(),
-            indices: Shared::default(),
         };
         outputs.reserve(world);
         outputs.set_uvs(desc);
@@ -122,14 +124,8 @@ impl Outputs {
             normals: Vec::new(),
             are_normals_current: false,
             surface: self.surface.with_same_capacity(),
-            uvs: self.uvs.clone(),
-            rest_uvs: self.rest_uvs.clone(),
-            rest_sources: self.rest_sources.clone(),
-            sources: self.sources.clone(),
-            frayed: self.frayed.clone(),
-            particles: self.particles.clone(),
+            attributes: self.attributes.clone(),
             pending: PendingAttributes::default(),
-            indices: self.indices.clone(),
         };
         if world.has_tear_reserve {
             outputs.reserve(world);
@@ -145,11 +141,12 @@ impl Outputs {
             self.normals.reserve_total(vertices);
             self.surface.reserve(particles, vertices);
         }
-        self.uvs.reserve_total(vertices);
-        self.sources.reserve_total(vertices);
-        self.frayed.reserve_total(vertices);
-        self.particles.reserve_total(vertices);
-        self.indices.reserve_total(3 * world.allocated_triangles());
+        let attributes = &mut *self.attributes;
+        attributes.uvs.reserve_total(vertices);
+        attributes.sources.reserve_total(vertices);
+        attributes.frayed.reserve_total(vertices);
+        attributes.particles.reserve_total(vertices);
+        attributes.indices.reserve_total(3 * world.allocated_triangles());
         if world.has_tear_reserve {
             self.pending.reserve(particles, vertices);
         }
@@ -160,9 +157,9 @@ impl Outputs {
 
     /// Sets the texture coordinates and sources of the descriptor's vertices.
     fn set_uvs(&mut self, desc: &ClothDesc) {
-        let uvs = with_float_env(|| desc.uvs());
-        self.rest_sources = Shared::new((0..uvs.len() as u32).collect());
-        self.rest_uvs = Shared::new(uvs);
+        let attributes = &mut *self.attributes;
+        attributes.rest_uvs = with_float_env(|| desc.uvs());
+        attributes.rest_sources = (0..attributes.rest_uvs.len() as u32).collect();
     }
 
     /// Copies the current positions and marks the normals as out of date.
@@ -190,17 +187,18 @@ impl Outputs {
 
     /// Rebuilds indices and per-vertex attributes, and returns the ranges that changed.
     pub fn update_topology(&mut self, world: &World) -> ChangedRanges {
-        with_float_env(|| self.update_rest_vertices(world));
+        let attributes = &mut *self.attributes;
+        with_float_env(|| attributes.update_rest_vertices(world));
         let rest_vertices = RestVertices::of(world);
         let pending = &mut self.pending;
         pending.uvs.clear();
-        pending
-            .uvs
-            .extend(rest_vertices.of_vertices.iter().map(|rest| self.rest_uvs[*rest as usize]));
+        pending.uvs.extend(
+            rest_vertices.of_vertices.iter().map(|rest| attributes.rest_uvs[*rest as usize]),
+        );
         pending.sources.clear();
-        pending
-            .sources
-            .extend(rest_vertices.of_vertices.iter().map(|rest| self.rest_sources[*rest as usize]));
+        pending.sources.extend(
+            rest_vertices.of_vertices.iter().map(|rest| attributes.rest_sources[*rest as usize]),
+        );
         pending.particles.clear();
         pending.frayed.clear();
         world.mesh.mark_torn_borders(&mut pending.frayed_particles);
@@ -217,20 +215,21 @@ impl Outputs {
         }
         let indices = world.render_triangles().as_flattened();
         let change = ChangedRanges {
-            indices: changed_range(&self.indices, indices),
+            indices: changed_range(&attributes.indices, indices),
             ..ChangedRanges::default()
         }
-        .include_vertices(changed_range(&self.uvs, &pending.uvs))
-        .include_vertices(changed_range(&self.sources, &pending.sources))
-        .include_vertices(changed_range(&self.frayed, &pending.frayed))
-        .include_vertices(changed_range(&self.particles, &pending.particles));
+        .include_vertices(changed_range(&attributes.uvs, &pending.uvs))
+        .include_vertices(changed_range(&attributes.sources, &pending.sources))
+        .include_vertices(changed_range(&attributes.frayed, &pending.frayed))
+        .include_vertices(changed_range(&attributes.particles, &pending.particles));
         self.surface.invalidate_topology();
         // Copy instead of swap: hosts hold pointers to these lists.
-        replace(&mut self.uvs, &pending.uvs);
-        replace(&mut self.sources, &pending.sources);
-        replace(&mut self.frayed, &pending.frayed);
-        replace(&mut self.particles, &pending.particles);
-        replace(&mut self.indices, indices);
+        attributes.uvs.clone_from(&pending.uvs);
+        attributes.sources.clone_from(&pending.sources);
+        attributes.frayed.clone_from(&pending.frayed);
+        attributes.particles.clone_from(&pending.particles);
+        attributes.indices.clear();
+        attributes.indices.extend_from_slice(indices);
         if !world.has_tear_reserve {
             self.pending = PendingAttributes::default();
         }
@@ -239,29 +238,12 @@ impl Outputs {
 
     /// Computes the surface at `blend` (0: last tick, 1: current tick), with tangents on request.
     pub fn update_surface(&mut self, world: &World, blend: f32, with_tangents: bool) {
-        self.surface.update(world, blend, with_tangents.then_some(&self.uvs[..]));
+        self.surface.update(world, blend, with_tangents.then_some(&self.attributes.uvs[..]));
     }
 
     /// Returns the number of vertices.
     pub fn vertex_count(&self) -> u32 {
         self.positions.len() as u32
-    }
-
-    /// Appends texture coordinates and sources of the rest vertices that cuts added, by linear
-    /// interpolation along the cut edge.
-    fn update_rest_vertices(&mut self, world: &World) {
-        let RestVertices { original, crossings, .. } = RestVertices::of(world);
-        let known = original + crossings.len();
-        if self.rest_uvs.len() > known {
-            self.rest_uvs.truncate(known);
-            self.rest_sources.truncate(known);
-        }
-        for crossing in &crossings[self.rest_uvs.len() - original..] {
-            let uv = crossing.interpolate(|end| self.rest_uvs[end as usize]);
-            let source = self.rest_sources[crossing.nearest_end() as usize];
-            self.rest_uvs.push(uv);
-            self.rest_sources.push(source);
-        }
     }
 
     /// Computes the normals of the current positions, if they are out of date.
@@ -275,11 +257,18 @@ impl Outputs {
     }
 }
 
-/// Replaces the entries of a list, unless they are the same.
-fn replace<T: Copy + PartialEq>(list: &mut Shared<Vec<T>>, new: &[T]) {
-    if **list != *new {
-        list.clear();
-        list.extend_from_slice(new);
+impl VertexAttributes {
+    /// Appends texture coordinates and sources of the rest vertices that cuts added, by linear
+    /// interpolation along the cut edge.
+    fn update_rest_vertices(&mut self, world: &World) {
+        let RestVertices { original, crossings, .. } = RestVertices::of(world);
+        let known = original + crossings.len();
+        self.rest_uvs.truncate(known);
+        self.rest_sources.truncate(known);
+        for crossing in &crossings[self.rest_uvs.len() - original..] {
+            self.rest_uvs.push(crossing.interpolate(|end| self.rest_uvs[end as usize]));
+            self.rest_sources.push(self.rest_sources[crossing.nearest_end() as usize]);
+        }
     }
 }
 

@@ -34,7 +34,7 @@ impl Cloth {
         let self_collision =
             |settings: &Settings| (settings.self_collision, settings.self_distance);
         let changes_self_collision = self_collision(&settings) != self_collision(&world.settings);
-        let had_no_surface_collision = world.surface_collision.is_none();
+        let had_no_surface_collision = world.scratch.surface_collision.is_none();
         let was_unlimited = world.settings.max_stretch == 0.0;
         if settings != world.settings {
             world.wake();
@@ -78,7 +78,7 @@ impl Cloth {
         if self.world.settings.tearing {
             self.reserve_for_tears();
         }
-        if had_no_surface_collision && self.world.surface_collision.is_some() {
+        if had_no_surface_collision && self.world.scratch.surface_collision.is_some() {
             self.update_state();
         }
         Ok(())

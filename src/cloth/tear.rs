@@ -41,7 +41,7 @@ impl Cloth {
         self.reserve_for_tears();
         let torn = with_float_env(|| {
             scratch_pool::with_lent(&mut self.world, |world| {
-                if world.surface_collision.is_some() {
+                if world.scratch.surface_collision.is_some() {
                     collide::begin_between_ticks(world);
                 }
                 tear::tear_edge(world, particle_a, particle_b)

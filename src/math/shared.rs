@@ -11,6 +11,8 @@
 use crate::math::heap_bytes::HeapBytes;
 use core::ops::{Deref, DerefMut};
 #[cfg(feature = "shared-rest")]
+use core::sync::atomic::{Ordering, fence};
+#[cfg(feature = "shared-rest")]
 use std::sync::Arc;
 
 /// A value that clones share.
@@ -69,7 +71,10 @@ impl<T: Clone> DerefMut for Shared<T> {
         if Arc::strong_count(&self.0) != 1 {
             self.0 = Arc::new(T::clone(self));
         }
-        Arc::get_mut(&mut self.0).expect("a value that nobody shares")
+        fence(Ordering::Acquire);
+        // SAFETY: there is no other reference to the value: no weak one is ever made, and the fence
+        // orders all that the last other owner did before this.
+        unsafe { &mut *Arc::as_ptr(&self.0).cast_mut() }
     }
 }
 

@@ -16,7 +16,9 @@ pub(crate) fn swap<T>(a: &mut T, b: &mut T) {
         assert!(align_of::<T>() >= align_of::<Word>());
     }
     // SAFETY: two exclusive references are valid, aligned and do not overlap.
-    unsafe { swap_words(from_mut(a).cast(), from_mut(b).cast(), size_of::<T>() / size_of::<Word>()) }
+    unsafe {
+        swap_words(from_mut(a).cast(), from_mut(b).cast(), size_of::<T>() / size_of::<Word>())
+    }
 }
 
 /// # Safety

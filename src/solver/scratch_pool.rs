@@ -37,7 +37,8 @@ pub(crate) fn reserve(world: &mut World) {
 /// Gives `world` the buffers of this thread, as large as it needs them. Returns the rest of the pool.
 #[inline(never)]
 fn lend(world: &mut World) -> Box<TickScratch> {
-    let mut pool = POOL.try_with(Cell::take).ok().flatten().unwrap_or_else(|| Box::new(TickScratch::empty()));
+    let mut pool =
+        POOL.try_with(Cell::take).ok().flatten().unwrap_or_else(|| Box::new(TickScratch::empty()));
     world.scratch.swap_lent(&mut pool);
     if pool.owner != world.scratch.owner {
         pool.owner = world.scratch.owner.same();

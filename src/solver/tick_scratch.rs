@@ -15,6 +15,8 @@ use crate::solver::bend::bend_scratch::BendScratch;
 use crate::solver::collide::contact_scratch::ContactScratch;
 use crate::solver::integrate::expected_momentum::ExpectedMomentum;
 use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
+use crate::solver::self_collide::particle_pairs::ParticleCollision;
+use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
 use crate::solver::stretch::damping_scratch::DampingScratch;
 use crate::solver::stretch::end_weights::EndWeights;
 use crate::solver::stretch::line_scratch::{LineLengths, LineScratch};
@@ -28,7 +30,7 @@ use glam::Vec3;
 /// Scratch buffers, allocated once so that no tick allocates.
 ///
 /// Columns have one entry per particle, unless their doc says otherwise.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct TickScratch {
     /// The cloth that these buffers belong to; in a pool, the last one that they were lent to.
     pub owner: ScratchOwner,
@@ -96,12 +98,24 @@ pub(crate) struct TickScratch {
     pub piece_groups: PieceGroups,
     /// Stack of the flood fill that labels the pieces.
     pub piece_stack: Vec<u32>,
+    /// Data of particle collision, while `self_collision` is `Particles`. Written by
+    /// `particle_contacts`.
+    pub particle_collision: Option<Box<ParticleCollision>>,
+    /// Data of surface collision, while `self_collision` is `Surface`. Written by `surface_stages`.
+    pub surface_collision: Option<Box<SurfaceCollision>>,
+}
+
+impl Clone for TickScratch {
+    /// Makes buffers without memory: a cloned cloth allocates and fills its own.
+    fn clone(&self) -> Self {
+        Self::empty()
+    }
 }
 
 heap_bytes!(
     TickScratch {
         tether_pins, effective_mass, anchor_moved, end_weights, bend, damping, contacts, tear,
-        opened_edges, pieces, piece_groups, piece_stack,
+        opened_edges, pieces, piece_groups, piece_stack, particle_collision, surface_collision,
     } plain {
         owner, line_lengths, acceleration, relative_wind, displacement, predicted,
         initial_velocity, correction, interleaved, lines, rollback, expected_momentum,
@@ -109,8 +123,7 @@ heap_bytes!(
     }
 );
 
-/// The identity of a cloth among all those that use pools of scratch buffers. A clone is another
-/// cloth.
+/// The identity of a cloth among all those that use pools of scratch buffers.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct ScratchOwner(usize);
 
@@ -125,12 +138,6 @@ impl Default for ScratchOwner {
     fn default() -> Self {
         static NEXT: AtomicUsize = AtomicUsize::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
-    }
-}
-
-impl Clone for ScratchOwner {
-    fn clone(&self) -> Self {
-        Self::default()
     }
 }
 

@@ -35,8 +35,6 @@ use crate::model::tethers::Tethers;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::profile::Profile;
 use crate::solver::self_collide::contact_forces::WarmStart;
-use crate::solver::self_collide::particle_pairs::ParticleCollision;
-use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
 use crate::solver::tick_scratch::TickScratch;
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::Attachments;
@@ -182,25 +180,19 @@ pub(crate) struct World {
     /// Number of ticks at rest. Written by `integrate::sleep`; a change by the host sets it to
     /// zero.
     pub sleep: SleepTimer,
-    /// Data of particle collision, while `self_collision` is `Particles`. Written by
-    /// `particle_contacts`.
-    pub particle_collision: Option<Box<ParticleCollision>>,
     /// Contact forces [N] of the last substep, used to warm-start the next; empty without surface
     /// collision. Written by `surface_stages`.
     pub warm_start: WarmStart,
     /// Whether the surface may intersect itself: each substep then tests all of it. Written by
     /// `surface_stages`; set when the host moves particles or turns surface collision on.
     pub is_tangled: bool,
-    /// Data of surface collision, while `self_collision` is `Surface`. Written by `surface_stages`.
-    pub surface_collision: Option<Box<SurfaceCollision>>,
 }
 
 heap_bytes!(
     World {
         mesh, seams, constraints, tethers, pin_order, rest, cut_sites, corner_area, grid_cells,
         plate_elements, folds, crack_tips, particles, mass_scales, pins, attachments, grabs,
-        anchors, sewing, colliders, maps, events, scratch, particle_collision, warm_start,
-        surface_collision,
+        anchors, sewing, colliders, maps, events, scratch, warm_start,
     } plain {
         tether_slack, pin_stretch, is_pin_stretch_current, rest_origin, grid_frame, mean_edge,
         origin, reference_pose, settings, material, wind, clock, pieces, particle_capacity,

@@ -26,9 +26,10 @@
 
 use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::reserve::zeros;
 use crate::math::simd::Level;
-use crate::math::{max, same_bits};
 use crate::math::swap::swap;
+use crate::math::{max, same_bits};
 use crate::model::bend_scale::{BendScale, BendScaleKey};
 use crate::model::plate_elements::{PerKind, PlateElements};
 use crate::solver::bend::banded::VectorColumns;
@@ -107,7 +108,7 @@ pub(crate) struct PlateStep<'a> {
 impl PlateScratch {
     pub fn new(plates: &PlateElements) -> Self {
         let count = plates.count();
-        let list = || vec![0.0; count];
+        let list = || zeros(count);
         Self {
             buffers: PlateBuffers::default(),
             weight: [list(), list(), list()],

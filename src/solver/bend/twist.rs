@@ -17,7 +17,7 @@
 
 use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
-use crate::math::reserve::ReserveTotal;
+use crate::math::reserve::{ReserveTotal, zeros};
 use crate::math::simd::{Level, leveled};
 use crate::math::swap::swap;
 use crate::model::plate_elements::PlateElements;
@@ -84,10 +84,10 @@ pub(crate) struct TwistOffset<'a> {
 impl Twist {
     pub fn new(plates: &PlateElements) -> Self {
         let count = plates.count();
-        let factor = || TridiagonalFactor { inverse: vec![0.0; count], near: vec![0.0; count] };
+        let factor = || TridiagonalFactor { inverse: zeros(count), near: zeros(count) };
         Self {
             buffers: TwistBuffers::default(),
-            compliance: vec![0.0; count],
+            compliance: zeros(count),
             rows: factor(),
             columns: [factor(), factor()],
         }
