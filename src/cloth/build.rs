@@ -239,6 +239,9 @@ fn build_world(
     let RestModel { mesh, mut constraints, rest, frame, areas, cells, plates } = rest_model;
     let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
     let has_tear_reserve = settings.tearing;
+    if has_tear_reserve {
+        constraints.index_links_by_site(&mesh);
+    }
     constraints.chains = Chains::new(&constraints.links, &rest, has_tear_reserve);
     let allocated = if has_tear_reserve { capacity } else { rest.len() };
     let folds = match &plates {

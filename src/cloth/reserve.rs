@@ -48,6 +48,7 @@ impl World {
     #[inline(never)]
     pub(crate) fn add_tear_reserve(&mut self) {
         self.has_tear_reserve = true;
+        self.constraints.index_links_by_site(&self.mesh);
         self.reserve_lists();
         self.reserve_scratch();
         self.reserve_effective_mass();

@@ -258,6 +258,11 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     let original_count = world.mesh.original_count;
     let mesh = validate::validated_mesh(triangles, &rest, capacity).map_err(|_| bad())?;
     require(mesh.corner_of.iter().skip(original_count as usize).all(|corner| *corner != NONE))?;
+    let is_torn = count > original_count as usize || mesh.triangles.len() > rest_triangles;
+    let has_tear_reserve = saved.settings.tearing || is_torn;
+    if has_tear_reserve {
+        world.constraints.index_links_by_site(&world.mesh);
+    }
     let rest_mesh = core::mem::replace(&mut world.mesh, Shared::new(mesh));
     world.mesh.original_count = original_count;
     world.mesh.source.copy_from_slice(&sources);
@@ -282,9 +287,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require((1..=Settings::MAX_SUBSTEPS).contains(&saved.substeps))?;
     world.substeps = saved.substeps;
     world.check_self_distance(&world.settings)?;
-    world.has_tear_reserve = world.settings.tearing
-        || count > original_count as usize
-        || world.mesh.triangles.len() > rest_triangles;
+    world.has_tear_reserve = has_tear_reserve;
     world.reserve();
     let material = (&world.material, &world.maps);
     require(world.constraints.apply_changes(&world.mesh, &saved.links, material))?;

@@ -58,7 +58,7 @@ pub(crate) struct Constraints {
     /// the second side of an inner edge.
     pub(super) link_of_edge: Shared<Vec<u32>>,
     /// Links that depend on each original vertex (CSR):
-    /// `links_by_site[first_of_site[v]..first_of_site[v + 1]]`.
+    /// `links_by_site[first_of_site[v]..first_of_site[v + 1]]`. Empty until the cloth can tear.
     pub(super) first_of_site: Shared<Vec<u32>>,
     pub(super) links_by_site: Shared<Vec<u32>>,
     /// Dynamic links of each site, as linked lists.
@@ -270,7 +270,6 @@ impl Constraints {
                 link_of_edge[edge_of(spec.ends) as usize] = at as u32;
             }
         }
-        let (first_of_site, links_by_site) = index_links_by_site(mesh, &links);
         let is_changed = vec![false; links.len()];
         let mut dynamic = Links::default();
         dynamic.reserve(opening_capacity);
@@ -291,12 +290,37 @@ impl Constraints {
             coloring,
             dynamic_sites: Vec::with_capacity(opening_capacity),
             link_of_edge: Shared::new(link_of_edge),
-            first_of_site: Shared::new(first_of_site),
-            links_by_site: Shared::new(links_by_site),
+            first_of_site: Shared::default(),
+            links_by_site: Shared::default(),
             dynamic_head: vec![NONE; mesh.original_count as usize],
             dynamic_next: Vec::with_capacity(opening_capacity),
             thread_directions: None,
         }
+    }
+
+    /// Finds for each original vertex the links that depend on it, unless they are known. `mesh` must
+    /// not be torn.
+    #[inline(never)]
+    pub fn index_links_by_site(&mut self, mesh: &Mesh) {
+        if !self.first_of_site.is_empty() {
+            return;
+        }
+        let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(4 * self.links.len());
+        for (at, spec) in self.links.spec.iter().enumerate() {
+            pairs.extend(spec.dependent_corners().map(|corner| [mesh.vertex(corner), at as u32]));
+        }
+        sort_groups(&mut pairs, |[vertex, _]| *vertex);
+        pairs.dedup();
+        let mut first = vec![0u32; mesh.original_count as usize + 1];
+        for [vertex, _] in &pairs {
+            first[*vertex as usize + 1] += 1;
+        }
+        for vertex in 1..first.len() {
+            first[vertex] += first[vertex - 1];
+        }
+        let mut of_sites = Vec::with_capacity(pairs.len());
+        of_sites.extend(pairs.iter().map(|[_, link]| *link));
+        (self.first_of_site, self.links_by_site) = (Shared::new(first), Shared::new(of_sites));
     }
 
     /// Makes all that damping changes unique.
@@ -415,27 +439,6 @@ fn edge_between_triangles(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
     let found = (3 * triangle..3 * triangle + 3).find(|edge| mesh.across(*edge) == other);
     debug_assert!(found.is_some(), "triangles {triangle} and {other} share an edge");
     found.unwrap_or(3 * triangle)
-}
-
-/// Builds the CSR lists `first_of_site` and `links_by_site`: for each original vertex, the links
-/// that depend on it.
-fn index_links_by_site(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
-    let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(4 * links.len());
-    for (at, spec) in links.spec.iter().enumerate() {
-        pairs.extend(spec.dependent_corners().map(|corner| [mesh.vertex(corner), at as u32]));
-    }
-    sort_groups(&mut pairs, |[vertex, _]| *vertex);
-    pairs.dedup();
-    let mut first = vec![0u32; mesh.original_count as usize + 1];
-    for [vertex, _] in &pairs {
-        first[*vertex as usize + 1] += 1;
-    }
-    for vertex in 1..first.len() {
-        first[vertex] += first[vertex - 1];
-    }
-    let mut of_sites = Vec::with_capacity(pairs.len());
-    of_sites.extend(pairs.iter().map(|[_, link]| *link));
-    (first, of_sites)
 }
 
 /// Lookup of edges by their two vertices.

@@ -92,15 +92,22 @@ pub(crate) struct Links {
     pub rest: Shared<Column>,
     /// Inverse spring constant [m/N]; 0 is rigid.
     pub compliance: Shared<Column>,
-    /// Lagrange multiplier accumulated in this substep.
-    pub lambda: Column,
     /// Whether the link acts; false once its support is gone.
     pub active: Vec<bool>,
     /// Definition.
     pub spec: Shared<Vec<LinkSpec>>,
 }
 
-heap_bytes!(Links { a, b, rest, compliance, lambda, active, spec } plain {});
+heap_bytes!(Links { a, b, rest, compliance, active, spec } plain {});
+
+/// What compliant links read and write in a substep.
+#[derive(Debug)]
+pub(crate) struct SoftLinks<'a> {
+    /// Inverse spring constants [m/N].
+    pub compliance: &'a [f32],
+    /// Lagrange multipliers accumulated in this substep.
+    pub lambda: &'a mut [f32],
+}
 
 impl Links {
     pub fn len(&self) -> usize {
@@ -137,7 +144,6 @@ impl Links {
         self.b.reserve(capacity);
         self.rest.reserve(in_all);
         self.compliance.reserve(in_all);
-        self.lambda.reserve(in_all);
         self.active.reserve_exact(capacity);
         self.spec.reserve_exact(capacity);
     }
@@ -148,7 +154,6 @@ impl Links {
         self.b.push(mesh.vertex(spec.ends[1]));
         self.rest.push(rest);
         self.compliance.push(0.0);
-        self.lambda.push(0.0);
         self.active.push(true);
         self.spec.push(spec);
     }

@@ -68,6 +68,10 @@ impl World {
             scratch.interleaved.reserve(particles);
         }
         scratch.lines.reserve(scratch.line_lengths);
+        let links = [&self.constraints.links, &self.constraints.dynamic];
+        for (lambda, links) in scratch.lambda.iter_mut().zip(links) {
+            lambda.reserve(links.capacity());
+        }
         if let Some(plates) = &self.plate_elements {
             scratch.bend.plates.resize_lent(plates);
         }

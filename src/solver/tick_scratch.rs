@@ -7,6 +7,7 @@
 //! Invariant: `cloth::reserve` and `scratch_pool` allocate the buffers for all particles that ticks
 //! may make, so that no tick allocates.
 
+use crate::math::column::Column;
 use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::swap::swap;
@@ -73,6 +74,9 @@ pub(crate) struct TickScratch {
     pub lines: LineScratch,
     /// Normals, rest directions and linear systems of stage `Bend`, which writes them.
     pub bend: BendScratch,
+    /// Lagrange multiplier of each link, and of each dynamic link, accumulated in this substep.
+    /// Written by stages `Stretch` and `Shear`.
+    pub lambda: [Column; 2],
     /// Rest lengths [m] and compliances [m/N] of the links without damping. Written by
     /// `stretch::damping`.
     pub damping: DampingScratch,
@@ -118,7 +122,7 @@ heap_bytes!(
         opened_edges, pieces, piece_groups, piece_stack, particle_collision, surface_collision,
     } plain {
         owner, line_lengths, acceleration, relative_wind, displacement, predicted,
-        initial_velocity, correction, interleaved, lines, rollback, expected_momentum,
+        initial_velocity, correction, interleaved, lines, lambda, rollback, expected_momentum,
         rests_on_collider,
     }
 );
@@ -154,6 +158,7 @@ impl TickScratch {
         own.into_iter().zip(others).for_each(|(own, other)| swap(own, other));
         swap(&mut self.interleaved, &mut other.interleaved);
         swap(&mut self.lines, &mut other.lines);
+        swap(&mut self.lambda, &mut other.lambda);
         self.contacts.swap_lent(&mut other.contacts);
         self.bend.plates.swap_lent(&mut other.bend.plates);
     }
@@ -177,6 +182,7 @@ impl TickScratch {
         self.lent_columns().into_iter().for_each(|columns| columns.resize(0));
         self.interleaved.clear();
         self.lines.clear();
+        self.lambda.iter_mut().for_each(Column::clear);
         self.contacts.clear_lent();
         self.bend.plates.clear_lent();
     }
