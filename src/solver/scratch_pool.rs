@@ -12,7 +12,7 @@
 //! Invariant: results do not depend on who had the buffers before. A cloth that had them last finds
 //! them as it left them; any other finds them empty or zero, as a restored cloth does.
 
-use crate::solver::tick_scratch::TickScratch;
+use crate::solver::tick_scratch::{ScratchOwner, TickScratch};
 use crate::solver::world::World;
 use core::cell::Cell;
 
@@ -28,8 +28,9 @@ pub(crate) fn with_lent<T>(world: &mut World, work: impl FnOnce(&mut World) -> T
     result
 }
 
-/// Allocates the buffers of this thread for `world`.
+/// Allocates the buffers of this thread for `world`, which needs others than before.
 pub(crate) fn reserve(world: &mut World) {
+    world.scratch.owner = ScratchOwner::default();
     let rest = lend(world);
     take_back(world, rest);
 }
@@ -40,11 +41,12 @@ fn lend(world: &mut World) -> Box<TickScratch> {
     let mut pool =
         POOL.try_with(Cell::take).ok().flatten().unwrap_or_else(|| Box::new(TickScratch::empty()));
     world.scratch.swap_lent(&mut pool);
+    world.scratch.owner.lengths = [world.particles.len(), world.constraints.dynamic.capacity()];
     if pool.owner != world.scratch.owner {
-        pool.owner = world.scratch.owner.same();
+        pool.owner = world.scratch.owner;
         world.scratch.clear_lent();
+        world.reserve_lent();
     }
-    world.reserve_lent();
     pool
 }
 

@@ -127,21 +127,19 @@ heap_bytes!(
     }
 );
 
-/// The identity of a cloth among all those that use pools of scratch buffers.
-#[derive(Debug, PartialEq, Eq)]
-pub(crate) struct ScratchOwner(usize);
-
-impl ScratchOwner {
-    /// Returns the same identity.
-    pub fn same(&self) -> Self {
-        Self(self.0)
-    }
+/// The identity of a cloth among all those that use pools of scratch buffers. It changes with what the
+/// cloth needs, so that a pool which it was lent to before that has to be adapted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ScratchOwner {
+    id: usize,
+    /// Number of particles, and of dynamic links for which there is memory.
+    pub lengths: [usize; 2],
 }
 
 impl Default for ScratchOwner {
     fn default() -> Self {
         static NEXT: AtomicUsize = AtomicUsize::new(0);
-        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+        Self { id: NEXT.fetch_add(1, Ordering::Relaxed), lengths: [0; 2] }
     }
 }
 

@@ -41,12 +41,12 @@ impl LineLengths {
 }
 
 impl LineScratch {
-    /// Removes all entries.
+    /// Removes all entries but the steps: of these, each block overwrites what it reads, and none
+    /// writes the first one.
     pub fn clear(&mut self) {
         self.points.clear();
         self.start_points.clear();
         self.start_columns.resize(0);
-        self.steps.clear();
     }
 
     /// Allocates lists of these lengths. Steps without an entry become zero.
