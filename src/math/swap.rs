@@ -20,7 +20,7 @@ pub(crate) fn swap<T>(a: &mut T, b: &mut T) {
     }
     // SAFETY: two exclusive references are valid, aligned and do not overlap.
     unsafe {
-        swap_words(from_mut(a).cast(), from_mut(b).cast(), size_of::<T>() / size_of::<Word>())
+        swap_words(from_mut(a).cast(), from_mut(b).cast(), size_of::<T>() / size_of::<Word>());
     }
 }
 
