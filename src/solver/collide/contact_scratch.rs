@@ -8,6 +8,7 @@
 
 use crate::math::reserve::ReserveTotal;
 use crate::solver::collide::body_motion::BodyMotion;
+use crate::solver::collide::close_pairs::{ClosePair, PushedCorner};
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::inside_count::InsideCount;
 use crate::solver::collide::long_pairs::LongPairs;
@@ -49,10 +50,10 @@ pub(crate) struct ContactScratch {
     pub(super) clearance: Vec<f32>,
     pub(super) pushes: PushAccumulator,
     /// The candidate pairs that are close in this substep.
-    pub(super) close_pairs: Vec<u32>,
+    pub(super) close_pairs: Vec<ClosePair>,
     pub(super) long_pairs: LongPairs,
-    /// The positions of all particles in the local frame of one collider [m].
-    pub(super) local_positions: Vec<Vec3>,
+    /// All particles in the rounds of one collider.
+    pub(super) corners: Vec<PushedCorner>,
     pub(super) room: Room,
     /// For each particle the index of its last contact in `collider_contacts`.
     pub(super) contact_slots: Vec<u32>,
@@ -98,7 +99,7 @@ impl ContactScratch {
         self.pushes.reserve(particles);
         self.close_pairs.reserve(triangles);
         self.long_pairs.reserve(triangles);
-        self.local_positions.reserve_total(particles);
+        self.corners.reserve_total(particles);
         self.contact_slots.resize(particles, 0);
         self.room.reserve(particles);
         self.is_inside.reserve_total(particles);

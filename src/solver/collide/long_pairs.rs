@@ -11,6 +11,7 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bends::SurfaceBend;
 use crate::geometry::features::{Feature, ShapeFeatures};
 use crate::mesh::{Mesh, NONE};
+use crate::solver::collide::close_pairs::ClosePair;
 use crate::solver::collide::local_particles::LocalParticles;
 use crate::solver::collide::long_triangles::longest_edge_squared;
 use crate::solver::collide::mid_phase::{EdgeEdgePair, PairSearch, VertexTrianglePair};
@@ -21,7 +22,7 @@ pub(super) struct LongPairs {
     pub edges: Vec<EdgeEdgePair>,
     pub vertices: Vec<VertexTrianglePair>,
     /// The pairs that are close.
-    pub close: Vec<u32>,
+    pub close: Vec<ClosePair>,
 }
 
 impl LongPairs {

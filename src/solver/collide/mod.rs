@@ -21,6 +21,7 @@
 mod any_moved;
 mod body_motion;
 pub(crate) mod broad_phase;
+mod close_pairs;
 pub(crate) mod collider_contact;
 mod collider_solver;
 mod contact_distance;

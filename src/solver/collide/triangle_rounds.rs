@@ -14,6 +14,7 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::math::max;
 use crate::math::simd::Level;
 use crate::mesh::Mesh;
+use crate::solver::collide::close_pairs::{ClosePair, PushedCorner, PushedCorners};
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::contact_distance::TRIANGLE_GAP;
 use crate::solver::collide::edge_vs_feature::FeatureQuery;
@@ -24,10 +25,9 @@ use crate::solver::collide::mid_phase::PairSearch;
 use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use crate::solver::collide::{
-    edge_vs_feature, long_pairs, mid_phase, particle_vs_shape, triangle_vs_round,
+    close_pairs, edge_vs_feature, long_pairs, mid_phase, particle_vs_shape, triangle_vs_round,
 };
 use crate::state::colliders::ColliderBody;
-use glam::Vec3;
 
 /// Rounds per substep that push triangles out of a shape: the smallest number while any triangle
 /// penetrates, and the largest number while one is too deep.
@@ -58,8 +58,8 @@ pub(super) struct RoundScratch<'a> {
     pub clearance: &'a mut Vec<f32>,
     pub pushes: &'a mut PushAccumulator,
     pub long_pairs: &'a mut LongPairs,
-    pub close_pairs: &'a mut Vec<u32>,
-    pub local_positions: &'a mut Vec<Vec3>,
+    pub close_pairs: &'a mut Vec<ClosePair>,
+    pub corners: &'a mut Vec<PushedCorner>,
 }
 
 /// Pushes the triangles near a collider out of it. `part` is the end and the length of the way of a
@@ -119,24 +119,26 @@ fn push_features(
     if features.is_empty() && long_features.is_empty() {
         return 0.0;
     }
-    let (positions, close_pairs) = (&mut *scratch.local_positions, &mut *scratch.close_pairs);
+    let close = &mut *scratch.close_pairs;
     let mut sum = 0.0;
     // Rounds that push far may bring other pairs close.
     for _ in 0..MAX_SEARCHES {
-        positions.clear();
-        positions.extend((0..particles.w.len()).map(|i| particles.end_position(i)));
-        edge_vs_feature::collect_close_pairs(&features, positions, close_pairs);
-        edge_vs_feature::collect_close_pairs(&long_features, positions, &mut pairs.close);
+        let mut corners = PushedCorners::begin(scratch.corners, particles);
+        close_pairs::collect(&features, particles, &corners, close);
+        close_pairs::collect(&long_features, particles, &corners, &mut pairs.close);
+        scratch.pushes.reset(particles.w.len());
         let mut push = |particles: &mut LocalParticles<'_>, pushes: &mut PushAccumulator| {
+            corners.measure(pushes.pushed(), particles);
             pushes.reset(particles.w.len());
-            let sharp = edge_vs_feature::push(&features, particles, close_pairs, pushes);
-            let smooth = edge_vs_feature::push(&long_features, particles, &pairs.close, pushes);
+            let (sharp, smooth) = ((&close[..], &corners), (&pairs.close[..], &corners));
+            let sharp = edge_vs_feature::push(&features, particles, sharp, pushes);
+            let smooth = edge_vs_feature::push(&long_features, particles, smooth, pushes);
             pushes.apply(particles);
             max(sharp, smooth)
         };
         let pushed = solve_rounds(shape, particles, neighbours, scratch.pushes, &mut push);
         sum += pushed;
-        if pushed <= largest_gap * (edge_vs_feature::CLOSE_GAPS - 1.0) {
+        if pushed <= largest_gap * close_pairs::MAX_PUSH_GAPS {
             break;
         }
     }

@@ -1,0 +1,170 @@
+//! Selects from the candidate pairs of cloth and features those that may touch in the rounds of one
+//! search, and says how far the cloth must be pushed before each of them can.
+//!
+//! ```text
+//! they touch only if    distance now < gap,  or  distance now < way in the substep: one passed the other
+//! pushes of length s    change the distance by s at most, and the way by s at most
+//! slack                 min(distance − gap, (distance − way) / 2)
+//! ```
+//! Cloth that is inside a solid may be pushed out from farther away, so it has no slack.
+//!
+//! Reads local particles and candidate pairs; writes close pairs.
+//! Invariant: a pair whose corners have been pushed less than its slack has no contact.
+
+use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
+use crate::geometry::features::FeatureSides;
+use crate::geometry::relative_motion::RigidStep;
+use crate::math::{max, min};
+use crate::solver::collide::edge_vs_feature::{FeatureQuery, start_position};
+use crate::solver::collide::local_particles::LocalParticles;
+use crate::solver::collide::triangle_vs_round::BESIDE;
+use glam::Vec3;
+
+/// After pushes of this many gaps the close pairs are searched anew.
+pub(super) const MAX_PUSH_GAPS: f32 = 3.0;
+
+/// A pair that may touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ClosePair {
+    /// Its number: edge pairs first, then vertex pairs.
+    pub at: u32,
+    /// Until a corner of the cloth has been pushed this far [m], it has no contact.
+    pub slack: f32,
+}
+
+/// A particle in the rounds of one search.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PushedCorner {
+    /// Its local position at the beginning [m].
+    position: Vec3,
+    /// How far it came in the substep until then, in the frame of the collider [m].
+    way: f32,
+    /// How far it has been pushed since [m].
+    pushed: f32,
+}
+
+/// All particles in the rounds of one search.
+pub(super) struct PushedCorners<'a>(&'a mut Vec<PushedCorner>);
+
+impl<'a> PushedCorners<'a> {
+    /// Begins a search.
+    pub fn begin(corners: &'a mut Vec<PushedCorner>, particles: &LocalParticles<'_>) -> Self {
+        corners.clear();
+        corners.extend((0..particles.w.len()).map(|i| {
+            let position = particles.end_position(i);
+            let way = position.distance(particles.start_position(i));
+            PushedCorner { position, way, pushed: 0.0 }
+        }));
+        Self(corners)
+    }
+
+    /// Measures how far the particles that the last round pushed are from where they began.
+    pub fn measure(&mut self, pushed: &[u32], particles: &LocalParticles<'_>) {
+        for i in pushed {
+            let corner = &mut self.0[*i as usize];
+            corner.pushed = particles.end_position(*i as usize).distance(corner.position);
+        }
+    }
+
+    /// Returns whether none of some particles has been pushed as far as `slack` [m].
+    #[inline(always)]
+    pub fn are_within(&self, particles: &[u32], slack: f32) -> bool {
+        particles.iter().all(|i| self.0[*i as usize].pushed < slack)
+    }
+}
+
+/// Collects the close pairs of a query.
+pub(super) fn collect(
+    query: &FeatureQuery<'_>,
+    particles: &LocalParticles<'_>,
+    corners: &PushedCorners<'_>,
+    close_pairs: &mut Vec<ClosePair>,
+) {
+    let FeatureQuery { features, edges, vertices, .. } = *query;
+    let search = Search { gap: query.gap * query.largest_scale, particles, corners };
+    close_pairs.clear();
+    for (at, pair) in (0..).zip(edges) {
+        let edge = &features.edges[pair.edge as usize];
+        let ends = pair.particles.map(|i| search.position(i) - edge.ends[0]);
+        let along = edge.ends[1] - edge.ends[0];
+        let (s, t) = segment_to_segment([Vec3::ZERO, along], ends);
+        let between = ends[0] + (ends[1] - ends[0]) * t - along * s;
+        let is_inside = || !edge.is_outside(edge.ends[0] + between);
+        let distance =
+            if edge.sides == FeatureSides::Solid && is_inside() { 0.0 } else { between.length() };
+        let step = features.edge_step(pair.edge);
+        let moved = (step, longest_way(step, &ends, along));
+        close_pairs.extend(search.close_pair(at, distance, &pair.particles, moved));
+    }
+    for (at, pair) in (edges.len() as u32..).zip(vertices) {
+        let vertex = &features.vertices[pair.vertex as usize];
+        let [a, b, c] = pair.particles.map(|i| search.position(i) - vertex.position);
+        let between = interpolate([a, b, c], triangle_to_origin([a, b, c]));
+        let is_inside = || !features.is_outside_vertex(vertex, vertex.position + between);
+        let distance = if vertex.sides == FeatureSides::Solid && is_inside() {
+            0.0
+        } else {
+            // A vertex that passes a little beside the triangle counts as passing through it.
+            between.length() - BESIDE * (b - a).cross(c - a).length().sqrt()
+        };
+        let step = features.vertex_step(pair.vertex);
+        let moved = (step, longest_way(step, &[a, b, c], Vec3::ZERO));
+        close_pairs.extend(search.close_pair(at, distance, &pair.particles, moved));
+    }
+}
+
+/// Returns an upper bound of how far a feature carries corners of the cloth, given relative to one end of
+/// it; `along` leads to its other end [m].
+#[inline(always)]
+fn longest_way(step: Option<&RigidStep>, corners: &[Vec3], along: Vec3) -> f32 {
+    step.map_or(0.0, |step| {
+        let reach = || corners.iter().map(|x| x.length()).fold(0.0, max) + along.length();
+        step.longest_way(reach)
+    })
+}
+
+/// What the pairs of a query share.
+struct Search<'a> {
+    /// The distance to keep [m].
+    gap: f32,
+    particles: &'a LocalParticles<'a>,
+    corners: &'a PushedCorners<'a>,
+}
+
+impl Search<'_> {
+    fn position(&self, i: u32) -> Vec3 {
+        self.corners.0[i as usize].position
+    }
+
+    /// Returns the pair with this number if it may touch, from its distance [m], the particles of the
+    /// cloth, and the motion of the feature with a bound of how far that carries them [m].
+    #[inline(always)]
+    fn close_pair(
+        &self,
+        at: u32,
+        distance: f32,
+        particles: &[u32],
+        (step, carried): (Option<&RigidStep>, f32),
+    ) -> Option<ClosePair> {
+        let slack = |way: f32| min(distance - self.gap, (distance - way) * 0.5);
+        let is_far = |slack: f32| slack > self.gap * MAX_PUSH_GAPS;
+        let own = particles.iter().map(|i| self.corners.0[*i as usize].way).fold(0.0, max);
+        // A bound of the way relative to the feature is enough where it is small.
+        let mut least = slack(own + carried);
+        if least <= 0.0 && step.is_some() && distance > self.gap {
+            least = slack(self.relative_way(particles, step));
+        }
+        (!is_far(least)).then_some(ClosePair { at, slack: least })
+    }
+
+    /// Returns the longest way of the particles in the substep, relative to a feature that carries them
+    /// along [m].
+    #[inline(never)]
+    fn relative_way(&self, particles: &[u32], step: Option<&RigidStep>) -> f32 {
+        let way = |i: &u32| {
+            let start = start_position(self.particles, *i as usize, step);
+            self.position(*i).distance(start)
+        };
+        particles.iter().map(way).fold(0.0, max)
+    }
+}
