@@ -51,7 +51,7 @@ const PASSED_GAP: f32 = 0.5;
 
 /// A vertex of a rigid shape up to this part of an edge beside a triangle counts as on it. A larger part
 /// would also push the triangle beside the one on whose other side the vertex is.
-const BESIDE_RIGID: f32 = 1.0e-3;
+const BESIDE_RIGID: f32 = 3.0e-4;
 
 /// The data that all pairs of one collider share in a substep.
 #[derive(Clone, Copy)]
