@@ -136,9 +136,9 @@ fn push_features(
             pushes.apply(particles);
             max(sharp, smooth)
         };
-        let pushed = solve_rounds(shape, particles, neighbours, scratch.pushes, &mut push);
-        sum += pushed;
-        if pushed <= largest_gap * close_pairs::MAX_PUSH_GAPS {
+        sum += solve_rounds(shape, particles, neighbours, scratch.pushes, &mut push);
+        corners.measure(scratch.pushes.pushed(), particles);
+        if corners.farthest <= largest_gap * close_pairs::MAX_PUSH_GAPS {
             break;
         }
     }
