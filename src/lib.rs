@@ -70,7 +70,7 @@
 //!
 //! # Features
 //!
-//! Six parts can be left out to make programs smaller; by default all are there:
+//! Seven parts can be left out to make programs smaller; by default all are there:
 //!
 //! | feature | without it |
 //! | --- | --- |
@@ -79,6 +79,7 @@
 //! | `cut` | `Cloth::cut` does not exist; tears do |
 //! | `save` | `Cloth::save` and `Cloth::restore` do not exist |
 //! | `sewing` | `Cloth::sew`, `SewDesc` and `SewKind` do not exist |
+//! | `shared-rest` | a clone has a copy of the rest shape from the start, which takes more memory |
 //! | `skins` | `Skin` and `SkinDesc` do not exist |
 //!
 //! Refusals are [`Error::MissingFeature`]. A save that needs a missing part is refused too. What a
@@ -98,6 +99,7 @@
         feature = "save",
         feature = "self-collision",
         feature = "sewing",
+        feature = "shared-rest",
         feature = "skins"
     )),
     allow(dead_code, unused_imports)

@@ -18,6 +18,7 @@ use crate::cloth::desc::{GridDesc, MeshDesc};
 use crate::error::Result;
 use crate::geometry::triangle::corner_areas;
 use crate::math::heap_bytes::HeapBytes;
+use crate::math::shared::Shared;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid;
@@ -238,6 +239,9 @@ fn build_world(
     let RestModel { mesh, mut constraints, rest, frame, areas, cells, plates } = rest_model;
     let triangle_capacity = mesh.triangles.len() + capacity - rest.len();
     let has_tear_reserve = settings.tearing;
+    if has_tear_reserve {
+        constraints.index_links_by_site(&mesh);
+    }
     constraints.chains = Chains::new(&constraints.links, &rest, has_tear_reserve);
     let allocated = if has_tear_reserve { capacity } else { rest.len() };
     let folds = match &plates {
@@ -249,7 +253,7 @@ fn build_world(
         particles: Particles::at_rest(&rest, allocated),
         mass_scales: MassScales::default(),
         tethers: Tethers::default(),
-        scratch: TickScratch::new(rest.len(), allocated),
+        scratch: TickScratch::empty(),
         pins: Pins::default(),
         attachments: Arena::with_capacity(MAX_ATTACHMENTS),
         grabs: Arena::with_capacity(MAX_GRABS),
@@ -280,23 +284,21 @@ fn build_world(
         threads: Threads::ONE,
         profile: Profile::default(),
         sleep: SleepTimer::default(),
-        mesh,
+        mesh: Shared::new(mesh),
         seams: None,
         constraints,
-        rest,
+        rest: Shared::new(rest),
         rest_origin: origin,
         origin,
         cut_sites: Vec::new(),
         crack_tips: Vec::with_capacity(allocated),
-        corner_area: areas,
+        corner_area: Shared::new(areas),
         grid_frame: frame,
         grid_cells: cells,
-        plate_elements: plates,
+        plate_elements: plates.map(Shared::new),
         folds,
-        particle_collision: None,
         warm_start: WarmStart::default(),
         is_tangled: true,
-        surface_collision: None,
     };
     world.label_pieces();
     for particle in pinned {

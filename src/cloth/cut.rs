@@ -9,6 +9,7 @@ use crate::error::{Error, Result, check, check_finite};
 use crate::geometry::blade::Blade;
 use crate::math::float_env::with_float_env;
 use crate::solver::collide;
+use crate::solver::scratch_pool;
 use crate::solver::self_collide::surface::surface_stages;
 use crate::solver::topology::cut;
 use glam::Vec3;
@@ -71,12 +72,14 @@ impl Cloth {
         }
         self.reserve_for_tears();
         with_float_env(|| {
-            cut::cut(&mut self.world, &plan);
-            self.world.rebuild_particle_collision();
-            self.world.rebuild_surface_collision();
-            let count = self.world.particles.len() as u32;
-            collide::begin_between_ticks(&mut self.world);
-            surface_stages::separate_splits(&mut self.world, 0..count);
+            scratch_pool::with_lent(&mut self.world, |world| {
+                cut::cut(world, &plan);
+                world.rebuild_particle_collision();
+                world.rebuild_surface_collision();
+                let count = world.particles.len() as u32;
+                collide::begin_between_ticks(world);
+                surface_stages::separate_splits(world, 0..count);
+            });
         });
         self.update_topology();
         self.update_state();

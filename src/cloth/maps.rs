@@ -14,7 +14,7 @@ use crate::solver::world::World;
 fn refresh_contact_distances(world: &mut World) {
     world.scratch.contacts.nearby.invalidate();
     world.rebuild_particle_collision();
-    if let Some(surface) = &mut world.surface_collision {
+    if let Some(surface) = &mut world.scratch.surface_collision {
         surface.invalidate();
     }
 }

@@ -67,9 +67,11 @@ use crate::cloth::ray_tree::RayTree;
 use crate::cloth::tracked_world::TrackedWorld;
 use crate::error::{Result, check};
 use crate::math::float_env::with_float_env;
+use crate::math::shared::Shared;
 use crate::mesh::report::MeshReport;
 use crate::solver::pipeline;
 use crate::solver::profile::Clock;
+use crate::solver::scratch_pool;
 use crate::solver::world::World;
 use crate::state::colliders::Impulse;
 use crate::state::events::Event;
@@ -123,7 +125,7 @@ use crate::state::events::Event;
 pub struct Cloth {
     /// The descriptor that the cloth was made from; [`Cloth::reset`] builds the rest state from it
     /// again.
-    desc: ClothDesc,
+    desc: Shared<ClothDesc>,
     world: TrackedWorld,
     outputs: Outputs,
     report: MeshReport,
@@ -145,7 +147,7 @@ impl Clone for Cloth {
         world.reserve();
         Self {
             desc: self.desc.clone(),
-            outputs: Outputs::new(&world, &self.desc),
+            outputs: self.outputs.of_clone(&world),
             world,
             report: self.report,
             pins_changed: self.pins_changed,
@@ -221,7 +223,7 @@ impl Cloth {
         let outputs = Outputs::new(&world, &desc);
         let history = ChangeHistory::new(world.has_tear_reserve);
         Ok(Self {
-            desc,
+            desc: Shared::new(desc),
             world: TrackedWorld::new(world),
             outputs,
             report,
@@ -354,7 +356,7 @@ impl Cloth {
                 if pins_changed {
                     world.rebuild_tethers();
                 }
-                run_ticks(world, ticks)
+                scratch_pool::with_lent(world, |world| run_ticks(world, ticks))
             })
         });
         if self.world.mesh.vertex_count() != vertices {

@@ -14,6 +14,7 @@ use crate::cloth::interpolated_surface::InterpolatedSurface;
 use crate::math::float_env::with_float_env;
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
+use crate::math::shared::Shared;
 use crate::mesh::split_edge::CutSite;
 use crate::solver::output::normals;
 use crate::solver::world::World;
@@ -35,6 +36,19 @@ pub(crate) struct Outputs {
     pub are_normals_current: bool,
     /// Normals and tangents per particle, at the blend of the last request.
     pub surface: InterpolatedSurface,
+    /// What only tears and cuts change.
+    pub attributes: Shared<VertexAttributes>,
+    /// Scratch lists for the next topology, compared with the current ones to find what changed.
+    pending: PendingAttributes,
+}
+
+heap_bytes!(
+    Outputs { positions, relative_positions, normals, surface, attributes, pending } plain { are_relative_positions_current, are_normals_current }
+);
+
+/// Attributes of the vertices and triangles that clones share.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct VertexAttributes {
     /// Texture coordinates per vertex.
     pub uvs: Vec<Vec2>,
     /// Texture coordinates of each rest vertex (vertices before any split; cuts append some).
@@ -47,17 +61,12 @@ pub(crate) struct Outputs {
     pub frayed: Vec<bool>,
     /// The particle of each vertex.
     pub particles: Vec<u32>,
-    /// Scratch lists for the next topology, compared with the current ones to find what changed.
-    pending: PendingAttributes,
     /// Three vertices per triangle.
     pub indices: Vec<u32>,
 }
 
 heap_bytes!(
-    Outputs {
-        positions, relative_positions, normals, surface, uvs, rest_uvs, rest_sources, sources,
-        frayed, particles, pending, indices,
-    } plain { are_relative_positions_current, are_normals_current }
+    VertexAttributes { uvs, rest_uvs, rest_sources, sources, frayed, particles, indices } plain {}
 );
 
 /// Per-vertex attributes of a new topology, before they replace the current ones. Empty between
@@ -95,19 +104,32 @@ impl Outputs {
             normals: Vec::new(),
             are_normals_current: false,
             surface: InterpolatedSurface::with_capacity(world.allocated_particles()),
-            uvs: Vec::new(),
-            rest_uvs: Vec::new(),
-            rest_sources: Vec::new(),
-            sources: Vec::new(),
-            frayed: Vec::new(),
-            particles: Vec::new(),
+            attributes: Shared::default(),
             pending: PendingAttributes::default(),
-            indices: Vec::new(),
         };
         outputs.reserve(world);
         outputs.set_uvs(desc);
         outputs.update_topology(world);
         outputs.update_positions(world);
+        outputs
+    }
+
+    /// Makes the lists of a clone. Those that only tears and cuts change are shared, unless the cloth
+    /// has memory for tears.
+    pub fn of_clone(&self, world: &World) -> Self {
+        let mut outputs = Self {
+            positions: self.positions.clone(),
+            relative_positions: Vec::new(),
+            are_relative_positions_current: false,
+            normals: Vec::new(),
+            are_normals_current: false,
+            surface: self.surface.with_same_capacity(),
+            attributes: self.attributes.clone(),
+            pending: PendingAttributes::default(),
+        };
+        if world.has_tear_reserve {
+            outputs.reserve(world);
+        }
         outputs
     }
 
@@ -119,11 +141,12 @@ impl Outputs {
             self.normals.reserve_total(vertices);
             self.surface.reserve(particles, vertices);
         }
-        self.uvs.reserve_total(vertices);
-        self.sources.reserve_total(vertices);
-        self.frayed.reserve_total(vertices);
-        self.particles.reserve_total(vertices);
-        self.indices.reserve_total(3 * world.allocated_triangles());
+        let attributes = &mut *self.attributes;
+        attributes.uvs.reserve_total(vertices);
+        attributes.sources.reserve_total(vertices);
+        attributes.frayed.reserve_total(vertices);
+        attributes.particles.reserve_total(vertices);
+        attributes.indices.reserve_total(3 * world.allocated_triangles());
         if world.has_tear_reserve {
             self.pending.reserve(particles, vertices);
         }
@@ -134,8 +157,9 @@ impl Outputs {
 
     /// Sets the texture coordinates and sources of the descriptor's vertices.
     fn set_uvs(&mut self, desc: &ClothDesc) {
-        self.rest_uvs = with_float_env(|| desc.uvs());
-        self.rest_sources = (0..self.rest_uvs.len() as u32).collect();
+        let attributes = &mut *self.attributes;
+        attributes.rest_uvs = with_float_env(|| desc.uvs());
+        attributes.rest_sources = (0..attributes.rest_uvs.len() as u32).collect();
     }
 
     /// Copies the current positions and marks the normals as out of date.
@@ -163,17 +187,18 @@ impl Outputs {
 
     /// Rebuilds indices and per-vertex attributes, and returns the ranges that changed.
     pub fn update_topology(&mut self, world: &World) -> ChangedRanges {
-        with_float_env(|| self.update_rest_vertices(world));
+        let attributes = &mut *self.attributes;
+        with_float_env(|| attributes.update_rest_vertices(world));
         let rest_vertices = RestVertices::of(world);
         let pending = &mut self.pending;
         pending.uvs.clear();
-        pending
-            .uvs
-            .extend(rest_vertices.of_vertices.iter().map(|rest| self.rest_uvs[*rest as usize]));
+        pending.uvs.extend(
+            rest_vertices.of_vertices.iter().map(|rest| attributes.rest_uvs[*rest as usize]),
+        );
         pending.sources.clear();
-        pending
-            .sources
-            .extend(rest_vertices.of_vertices.iter().map(|rest| self.rest_sources[*rest as usize]));
+        pending.sources.extend(
+            rest_vertices.of_vertices.iter().map(|rest| attributes.rest_sources[*rest as usize]),
+        );
         pending.particles.clear();
         pending.frayed.clear();
         world.mesh.mark_torn_borders(&mut pending.frayed_particles);
@@ -190,21 +215,21 @@ impl Outputs {
         }
         let indices = world.render_triangles().as_flattened();
         let change = ChangedRanges {
-            indices: changed_range(&self.indices, indices),
+            indices: changed_range(&attributes.indices, indices),
             ..ChangedRanges::default()
         }
-        .include_vertices(changed_range(&self.uvs, &pending.uvs))
-        .include_vertices(changed_range(&self.sources, &pending.sources))
-        .include_vertices(changed_range(&self.frayed, &pending.frayed))
-        .include_vertices(changed_range(&self.particles, &pending.particles));
+        .include_vertices(changed_range(&attributes.uvs, &pending.uvs))
+        .include_vertices(changed_range(&attributes.sources, &pending.sources))
+        .include_vertices(changed_range(&attributes.frayed, &pending.frayed))
+        .include_vertices(changed_range(&attributes.particles, &pending.particles));
         self.surface.invalidate_topology();
         // Copy instead of swap: hosts hold pointers to these lists.
-        self.uvs.clone_from(&pending.uvs);
-        self.sources.clone_from(&pending.sources);
-        self.frayed.clone_from(&pending.frayed);
-        self.particles.clone_from(&pending.particles);
-        self.indices.clear();
-        self.indices.extend_from_slice(indices);
+        attributes.uvs.clone_from(&pending.uvs);
+        attributes.sources.clone_from(&pending.sources);
+        attributes.frayed.clone_from(&pending.frayed);
+        attributes.particles.clone_from(&pending.particles);
+        attributes.indices.clear();
+        attributes.indices.extend_from_slice(indices);
         if !world.has_tear_reserve {
             self.pending = PendingAttributes::default();
         }
@@ -213,7 +238,7 @@ impl Outputs {
 
     /// Computes the surface at `blend` (0: last tick, 1: current tick), with tangents on request.
     pub fn update_surface(&mut self, world: &World, blend: f32, with_tangents: bool) {
-        self.surface.update(world, blend, with_tangents.then_some(&self.uvs[..]));
+        self.surface.update(world, blend, with_tangents.then_some(&self.attributes.uvs[..]));
     }
 
     /// Returns the number of vertices.
@@ -221,6 +246,18 @@ impl Outputs {
         self.positions.len() as u32
     }
 
+    /// Computes the normals of the current positions, if they are out of date.
+    pub fn refresh_normals(&mut self, world: &World) {
+        if !self.are_normals_current {
+            self.surface.update(world, 1.0, None);
+            self.normals.reserve_total(self.positions.capacity());
+            normals::scatter_to_vertices(world, &self.surface.normals, &mut self.normals);
+            self.are_normals_current = true;
+        }
+    }
+}
+
+impl VertexAttributes {
     /// Appends texture coordinates and sources of the rest vertices that cuts added, by linear
     /// interpolation along the cut edge.
     fn update_rest_vertices(&mut self, world: &World) {
@@ -231,16 +268,6 @@ impl Outputs {
         for crossing in &crossings[self.rest_uvs.len() - original..] {
             self.rest_uvs.push(crossing.interpolate(|end| self.rest_uvs[end as usize]));
             self.rest_sources.push(self.rest_sources[crossing.nearest_end() as usize]);
-        }
-    }
-
-    /// Computes the normals of the current positions, if they are out of date.
-    pub fn refresh_normals(&mut self, world: &World) {
-        if !self.are_normals_current {
-            self.surface.update(world, 1.0, None);
-            self.normals.reserve_total(self.positions.capacity());
-            normals::scatter_to_vertices(world, &self.surface.normals, &mut self.normals);
-            self.are_normals_current = true;
         }
     }
 }

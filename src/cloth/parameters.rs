@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::math::float_env::with_float_env;
 use crate::model::material::Material;
 use crate::solver::collide;
+use crate::solver::scratch_pool;
 use crate::solver::self_collide::surface::surface_stages;
 use crate::state::settings::Settings;
 use crate::state::wind::Wind;
@@ -33,7 +34,7 @@ impl Cloth {
         let self_collision =
             |settings: &Settings| (settings.self_collision, settings.self_distance);
         let changes_self_collision = self_collision(&settings) != self_collision(&world.settings);
-        let had_no_surface_collision = world.surface_collision.is_none();
+        let had_no_surface_collision = world.scratch.surface_collision.is_none();
         let was_unlimited = world.settings.max_stretch == 0.0;
         if settings != world.settings {
             world.wake();
@@ -56,8 +57,10 @@ impl Cloth {
                 if had_no_surface_collision {
                     world.is_tangled = true;
                     let count = world.particles.len() as u32;
-                    collide::begin_between_ticks(world);
-                    surface_stages::separate_splits(world, 0..count);
+                    scratch_pool::with_lent(world, |world| {
+                        collide::begin_between_ticks(world);
+                        surface_stages::separate_splits(world, 0..count);
+                    });
                 }
             });
         }
@@ -75,7 +78,7 @@ impl Cloth {
         if self.world.settings.tearing {
             self.reserve_for_tears();
         }
-        if had_no_surface_collision && self.world.surface_collision.is_some() {
+        if had_no_surface_collision && self.world.scratch.surface_collision.is_some() {
             self.update_state();
         }
         Ok(())

@@ -14,10 +14,12 @@ use crate::math::reserve::ReserveTotal;
 use crate::math::simd::Level;
 use crate::model::tethers::Tethers;
 use crate::solver::bend::bend_scratch::BendScratch;
-use crate::solver::stretch::line_scratch::LineScratch;
+use crate::solver::scratch_pool;
+use crate::solver::stretch::line_scratch::LineLengths;
 use crate::solver::tick_scratch::TickScratch;
 use crate::solver::topology::tear_scratch::TearScratch;
 use crate::solver::world::World;
+use crate::state::colliders::ColliderBody;
 
 impl Cloth {
     /// Allocates the memory for tears and cuts, unless the cloth has it.
@@ -46,18 +48,19 @@ impl World {
     #[inline(never)]
     pub(crate) fn add_tear_reserve(&mut self) {
         self.has_tear_reserve = true;
+        self.constraints.index_links_by_site(&self.mesh);
         self.reserve_lists();
-        self.scratch.reserve(self.capacity());
         self.reserve_scratch();
         self.reserve_effective_mass();
         self.reserve_anchor_scratch();
+        self.reserve_contacts();
     }
 
     /// Allocates every list again, after the world was cloned or read from a save: such lists have
     /// no spare capacity.
     pub(crate) fn reserve(&mut self) {
+        self.scratch = TickScratch::empty();
         self.reserve_lists();
-        self.scratch = TickScratch::new(self.particles.len(), self.allocated_particles());
         self.label_pieces();
         self.reserve_scratch();
         self.reserve_effective_mass();
@@ -74,13 +77,28 @@ impl World {
         self.reserve_pieces();
     }
 
+    /// Makes all rest data unique that tears in a tick change.
+    fn make_unique(&mut self) {
+        self.mesh.make_unique();
+        self.corner_area.make_unique();
+        self.constraints.make_unique();
+        if let Some(plates) = &mut self.plate_elements {
+            plates.make_unique();
+        }
+    }
+
     /// Allocates the lists outside of the scratch buffers.
     #[inline(never)]
     fn reserve_lists(&mut self) {
         let particles = self.allocated_particles();
+        if self.has_tear_reserve {
+            self.make_unique();
+        }
         let reserve = |list: &mut Vec<u32>| list.reserve_total(particles);
-        reserve(&mut self.mesh.source);
-        reserve(&mut self.mesh.corner_of);
+        if self.has_tear_reserve {
+            reserve(&mut self.mesh.source);
+            reserve(&mut self.mesh.corner_of);
+        }
         self.particles.reserve(particles);
         self.mass_scales.reserve(particles);
         self.maps.reserve(particles);
@@ -132,17 +150,16 @@ impl World {
         let has_grid_rows = self.constraints.rows.is_some();
         let scratch = &mut self.scratch;
         scratch.end_weights.reserve(particles, links);
-        if !has_grid_rows {
-            scratch.interleaved.reserve(particles);
-        }
         let chains = &self.constraints.chains.blocks;
         // A whole grid has strided chains only, which are solved in columns where there is SIMD.
         let stays_strided =
             has_grid_rows && chains.are_all_strided() && self.level != Level::Scalar;
         let gathers = self.has_tear_reserve || !stays_strided;
-        scratch.lines = LineScratch::new(chains.max_steps(), particles, [gathers, has_grid_rows]);
+        scratch.line_lengths =
+            LineLengths::new(chains.max_steps(), particles, [gathers, has_grid_rows]);
         let hinges = self.constraints.hinges.all.len();
-        scratch.bend = BendScratch::new(self.plate_elements.as_ref(), triangles, hinges, particles);
+        scratch.bend =
+            BendScratch::new(self.plate_elements.as_deref(), triangles, hinges, particles);
         scratch.bend.hinge_lambda.reserve_total(self.constraints.dynamic.capacity());
         if self.has_tear_reserve {
             scratch.tear =
@@ -161,17 +178,17 @@ impl World {
         let (particles, links) = (self.allocated_particles(), self.constraints.links.len());
         if self.settings.max_stretch > 0.0 {
             self.pin_order.reserve(particles, links);
-            self.scratch.initial_velocity.reserve(particles);
-            self.scratch.rollback.positions.reserve(particles);
         }
         if self.material.stretch_damping > 0.0 {
             let opened_edges = self.mesh.max_opened_edges(particles);
+            self.constraints.make_lengths_unique();
             self.scratch.damping.reserve(links, self.constraints.dynamic.len() + opened_edges);
         }
         if self.material.yield_angle > 0.0 || self.folds.is_allocated() {
             self.reserve_folds();
         }
         self.folds.reserve_hardening(&self.material);
+        scratch_pool::reserve(self);
     }
 
     /// Allocates rest angles of all bending elements, and what bending needs with them.
@@ -194,14 +211,9 @@ impl World {
         }
     }
 
-    /// Returns about the memory of the colliders and of the buffers for contacts with them [bytes],
-    /// without the shapes. Its factors are measured.
-    pub(crate) fn contact_bytes(&self) -> usize {
-        let (particles, triangles) = (self.capacity(), self.triangle_capacity);
-        match self.colliders.iter().count() {
-            0 => 0,
-            bodies => 500 * particles + 440 * triangles + 20 * bodies * (particles + triangles),
-        }
+    /// Returns the memory of the colliders [bytes], without the shapes.
+    pub(crate) fn collider_bytes(&self) -> usize {
+        self.colliders.iter().count() * size_of::<ColliderBody>()
     }
 
     /// Allocates the lists of pieces. If the cloth can tear, each triangle may become one.

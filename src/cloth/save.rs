@@ -26,6 +26,7 @@ use crate::error::{Error, Result};
 use crate::math::columns::Columns;
 use crate::math::float_env::with_float_env;
 use crate::math::hasher::StateHasher;
+use crate::math::shared::Shared;
 use crate::mesh::seams::Seams;
 use crate::mesh::split_edge::CutSite;
 use crate::mesh::{NONE, validate};
@@ -240,7 +241,8 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     for crossing in saved.crossings.iter() {
         let are_known = crossing.ends.iter().all(|end| (*end as usize) < world.rest.len());
         require(are_known && crossing.fraction > 0.0 && crossing.fraction < 1.0)?;
-        world.rest.push(crossing.interpolate(|end| world.rest[end as usize]));
+        let at_crossing = crossing.interpolate(|end| world.rest[end as usize]);
+        world.rest.push(at_crossing);
     }
     world.cut_sites = saved.crossings.into_owned();
     require(sources.iter().all(|rest| (*rest as usize) < world.rest.len()))?;
@@ -256,7 +258,12 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     let original_count = world.mesh.original_count;
     let mesh = validate::validated_mesh(triangles, &rest, capacity).map_err(|_| bad())?;
     require(mesh.corner_of.iter().skip(original_count as usize).all(|corner| *corner != NONE))?;
-    let rest_mesh = core::mem::replace(&mut world.mesh, mesh);
+    let is_torn = count > original_count as usize || mesh.triangles.len() > rest_triangles;
+    let has_tear_reserve = saved.settings.tearing || is_torn;
+    if has_tear_reserve {
+        world.constraints.index_links_by_site(&world.mesh);
+    }
+    let rest_mesh = core::mem::replace(&mut world.mesh, Shared::new(mesh));
     world.mesh.original_count = original_count;
     world.mesh.source.copy_from_slice(&sources);
     require(saved.rest_borders.len() == world.mesh.triangles.len())?;
@@ -280,9 +287,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     require((1..=Settings::MAX_SUBSTEPS).contains(&saved.substeps))?;
     world.substeps = saved.substeps;
     world.check_self_distance(&world.settings)?;
-    world.has_tear_reserve = world.settings.tearing
-        || count > original_count as usize
-        || world.mesh.triangles.len() > rest_triangles;
+    world.has_tear_reserve = has_tear_reserve;
     world.reserve();
     let material = (&world.material, &world.maps);
     require(world.constraints.apply_changes(&world.mesh, &saved.links, material))?;
@@ -340,7 +345,7 @@ fn restore_from(saved: SaveData<'_>) -> Result<Cloth> {
     let outputs = Outputs::new(&world, &desc);
     let history = ChangeHistory::new(world.has_tear_reserve);
     Ok(Cloth {
-        desc,
+        desc: Shared::new(desc),
         world: TrackedWorld::new(world),
         outputs,
         report,

@@ -100,7 +100,7 @@ impl Cloth {
             hasher.write_f32s(&[contact.normal]);
             hasher.write_f32s(&contact.tangent.to_array());
         }
-        if world.surface_collision.is_some() && world.is_tangled {
+        if world.scratch.surface_collision.is_some() && world.is_tangled {
             hasher.write_u32(1);
         }
         let share = with_float_env(|| world.correction_share());

@@ -7,6 +7,8 @@
 use crate::cloth::Cloth;
 use crate::error::{Error, Result, check, check_index};
 use crate::math::float_env::with_float_env;
+use crate::solver::collide;
+use crate::solver::scratch_pool;
 use crate::solver::topology::tear;
 
 impl Cloth {
@@ -37,7 +39,14 @@ impl Cloth {
             return Err(Error::Full { what: "another torn vertex" });
         }
         self.reserve_for_tears();
-        let torn = with_float_env(|| tear::tear_edge(&mut self.world, particle_a, particle_b));
+        let torn = with_float_env(|| {
+            scratch_pool::with_lent(&mut self.world, |world| {
+                if world.scratch.surface_collision.is_some() {
+                    collide::begin_between_ticks(world);
+                }
+                tear::tear_edge(world, particle_a, particle_b)
+            })
+        });
         if torn {
             self.update_topology();
             self.update_state();

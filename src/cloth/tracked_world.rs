@@ -11,15 +11,16 @@
 #[cfg(feature = "parallel")]
 use crate::math::threads::Threads;
 use crate::solver::world::World;
+use core::mem::ManuallyDrop;
 use core::ops::{Deref, DerefMut};
 
 /// The world of a cloth. Mutable access ends the idle state of its clock.
 #[derive(Clone, Debug)]
-pub(crate) struct TrackedWorld(World);
+pub(crate) struct TrackedWorld(ManuallyDrop<World>);
 
 impl TrackedWorld {
     pub fn new(world: World) -> Self {
-        Self(world)
+        Self(ManuallyDrop::new(world))
     }
 
     /// Advances only the clock, which must be idle, by `seconds` [s], and returns the number of
@@ -38,7 +39,7 @@ impl TrackedWorld {
     ///
     /// Does nothing while the host measures stages, because each call then resets their times.
     pub fn begin_idle(&mut self) {
-        let world = &mut self.0;
+        let world = &mut *self.0;
         if world.profile.clock().is_none() {
             world.clock.begin_idle(&world.settings);
         }
@@ -49,6 +50,15 @@ impl TrackedWorld {
     #[cfg(feature = "parallel")]
     pub fn replace_threads(&mut self, threads: Threads) -> Threads {
         core::mem::replace(&mut self.0.threads, threads)
+    }
+}
+
+impl Drop for TrackedWorld {
+    /// Out of line, so that a crate that drops a cloth has no copy of the code that frees its lists.
+    #[inline(never)]
+    fn drop(&mut self) {
+        // SAFETY: nothing uses the world afterwards.
+        unsafe { ManuallyDrop::drop(&mut self.0) }
     }
 }
 

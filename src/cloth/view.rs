@@ -91,8 +91,9 @@ pub struct Stats {
     pub substeps: u32,
     /// Whether the cloth sleeps, see [`Settings::sleep_speed`](crate::Settings).
     pub asleep: bool,
-    /// Memory of the cloth [bytes]: what it has allocated, and itself. Contacts with colliders are
-    /// estimated, and the shapes of colliders not counted.
+    /// Memory of the cloth [bytes]: what it has allocated, and itself. What clones share counts in equal
+    /// parts for each. Not counted are the shapes of colliders, and the scratch buffers of ticks, which
+    /// each thread has once, for the largest cloth that it has made or stepped.
     pub bytes: u64,
     /// Time of each stage ([`Stage::ALL`](crate::Stage)) in the last call that ran ticks [s]; zeros
     /// without a clock ([`Cloth::set_clock`]).
@@ -107,15 +108,15 @@ impl Cloth {
         View {
             positions: &self.outputs.positions,
             normals: &self.outputs.normals,
-            uvs: &self.outputs.uvs,
-            indices: &self.outputs.indices,
-            source_vertices: &self.outputs.sources,
-            frayed: &self.outputs.frayed,
+            uvs: &self.outputs.attributes.uvs,
+            indices: &self.outputs.attributes.indices,
+            source_vertices: &self.outputs.attributes.sources,
+            frayed: &self.outputs.attributes.frayed,
             vertex_capacity: self.world.vertex_capacity() as u32,
             index_capacity: 3 * self.world.triangle_capacity as u32,
             topology_revision: self.topology_revision,
             state_revision: self.state_revision,
-            particles: &self.outputs.particles,
+            particles: &self.outputs.attributes.particles,
         }
     }
 
@@ -128,7 +129,7 @@ impl Cloth {
     /// `particle_a` and `particle_b` are particles, `vertex` and `source` are vertices. Triangles
     /// have the same numbers in both.
     pub fn vertex_particles(&self) -> &[u32] {
-        &self.outputs.particles
+        &self.outputs.attributes.particles
     }
 
     /// Returns what was repaired in the mesh that the cloth was made from. A grid needs no repair.
@@ -171,24 +172,24 @@ impl Cloth {
 
     /// Returns the texture coordinates of the vertices; zeros if the mesh had none.
     pub fn uvs(&self) -> &[Vec2] {
-        &self.outputs.uvs
+        &self.outputs.attributes.uvs
     }
 
     /// Returns three vertices per triangle.
     pub fn indices(&self) -> &[u32] {
-        &self.outputs.indices
+        &self.outputs.attributes.indices
     }
 
     /// Returns the vertex of the descriptor that each vertex came from; for a vertex that a cut
     /// added on an edge, that of the nearer end.
     pub fn source_vertices(&self) -> &[u32] {
-        &self.outputs.sources
+        &self.outputs.attributes.sources
     }
 
     /// Returns whether each vertex is on a border that a tear or cut made, e.g. to draw fringes
     /// there. Borders of the original cloth (hems) do not count.
     pub fn frayed(&self) -> &[bool] {
-        &self.outputs.frayed
+        &self.outputs.attributes.frayed
     }
 
     /// Returns whether any of these addresses lies in an output list, up to its capacity. For
@@ -200,9 +201,11 @@ impl Cloth {
         }
         let outputs = &self.outputs;
         outputs.vector_lists().into_iter().any(|list| meets(list, addresses))
-            || [&outputs.sources, &outputs.indices].into_iter().any(|list| meets(list, addresses))
-            || meets(&outputs.uvs, addresses)
-            || meets(&outputs.frayed, addresses)
+            || [&outputs.attributes.sources, &outputs.attributes.indices]
+                .into_iter()
+                .any(|list| meets(list, addresses))
+            || meets(&outputs.attributes.uvs, addresses)
+            || meets(&outputs.attributes.frayed, addresses)
     }
 
     /// Returns a number that changes whenever the triangles change. Never 0 in practice; it starts
@@ -265,7 +268,7 @@ impl Cloth {
         let bytes = size_of::<Self>()
             + self.desc.heap_bytes()
             + self.world.heap_bytes()
-            + self.world.contact_bytes()
+            + self.world.collider_bytes()
             + self.outputs.heap_bytes()
             + self.history.heap_bytes()
             + self.ray_tree.bytes();

@@ -25,6 +25,7 @@ use crate::geometry::bvh::Bvh;
 use crate::geometry::relative_motion::{PartMotion, PointMotion, RigidStep};
 use crate::geometry::swept_box::SweptBox;
 use crate::math::max;
+use crate::math::reserve::ReserveTotal;
 use crate::math::sort::{sort_by, sort_groups};
 use glam::Vec3;
 
@@ -180,11 +181,11 @@ pub(super) struct IncidentEdge {
 }
 
 impl Features {
-    /// Allocates for `count` more edges and as many vertices.
+    /// Allocates for `count` edges in all and as many vertices.
     pub fn reserve(&mut self, count: usize) {
-        self.edges.reserve(count);
-        self.vertices.reserve(count);
-        self.incident_edges.reserve(2 * count);
+        self.edges.reserve_total(count);
+        self.vertices.reserve_total(count);
+        self.incident_edges.reserve_total(2 * count);
     }
 
     pub fn clear(&mut self) {

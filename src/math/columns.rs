@@ -29,6 +29,7 @@ impl Columns {
     }
 
     /// Allocates for `capacity` vectors in total.
+    #[inline(never)]
     pub fn reserve(&mut self, capacity: usize) {
         for column in [&mut self.x, &mut self.y, &mut self.z] {
             column.reserve(capacity);
@@ -36,6 +37,7 @@ impl Columns {
     }
 
     /// Truncates the list to `count` vectors, or extends it with zeros.
+    #[inline(never)]
     pub fn resize(&mut self, count: usize) {
         for column in [&mut self.x, &mut self.y, &mut self.z] {
             column.resize(count);

@@ -17,7 +17,7 @@ pub(crate) trait HeapBytes {
 }
 
 /// Implements [`HeapBytes`] for a struct by adding up the fields in braces; those after `plain` have
-/// no memory on the heap.
+/// no memory on the heap, or lists that are empty between ticks, because the thread lends them.
 macro_rules! heap_bytes {
     ($type:ty { $($list:ident),* $(,)? } plain { $($plain:ident),* $(,)? }) => {
         impl $crate::math::heap_bytes::HeapBytes for $type {

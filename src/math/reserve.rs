@@ -18,3 +18,9 @@ impl<T> ReserveTotal for Vec<T> {
         self.reserve_exact(count.saturating_sub(self.len()));
     }
 }
+
+/// Returns a list of zeros, made by one function for the same reason.
+#[inline(never)]
+pub(crate) fn zeros(count: usize) -> Vec<f32> {
+    vec![0.0; count]
+}

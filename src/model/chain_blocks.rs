@@ -16,6 +16,7 @@
 //! Invariant: after `rebuild_stale` the steps contain each active link of all chains once.
 
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::shared::Shared;
 use crate::math::simd::{LANES, LaneArray};
 use crate::mesh::NONE;
 use crate::model::links::Links;
@@ -68,14 +69,14 @@ struct ChainBlock {
 /// All chains in blocks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ChainBlocks {
-    steps: Vec<ChainStep>,
+    steps: Shared<Vec<ChainStep>>,
     blocks: Vec<ChainBlock>,
     /// Links of all chains at creation, chain by chain, block by block.
-    links_of_chains: Vec<ChainLink>,
+    links_of_chains: Shared<Vec<ChainLink>>,
     /// First entry in `links_of_chains` of each chain of a block, and the end of the last one.
     chain_starts: Vec<[u32; LANES + 1]>,
     /// Block of each link; `NONE` if it is in no chain.
-    block_of: Vec<u32>,
+    block_of: Shared<Vec<u32>>,
     /// Whether any block is stale.
     is_stale: bool,
     /// Whether all blocks are strided.
@@ -94,7 +95,7 @@ impl ChainBlocks {
     /// Builds blocks from chains. `links` are all links; `can_break` allocates for chains that tear
     /// apart.
     pub fn new(links: &Links, blocks: &[Vec<&[ChainLink]>], can_break: bool) -> Self {
-        let mut result = Self { block_of: vec![NONE; links.len()], ..Self::default() };
+        let mut result = Self { block_of: Shared::new(vec![NONE; links.len()]), ..Self::default() };
         for (at, chains) in blocks.iter().enumerate() {
             let mut chain_starts = [result.links_of_chains.len() as u32; LANES + 1];
             for (lane, chain) in chains.iter().enumerate() {
@@ -132,9 +133,14 @@ impl ChainBlocks {
             // Each segment has a start and at least one link.
             steps += if can_break { 2 * longest } else { longest + 1 };
         }
-        self.steps = vec![NO_STEP; steps];
+        self.steps = Shared::new(vec![NO_STEP; steps]);
         (self.is_stale, self.can_break) = (true, can_break);
         self.rebuild_stale(links);
+    }
+
+    /// Makes the steps unique.
+    pub fn make_unique(&mut self) {
+        self.steps.make_unique();
     }
 
     /// The steps of each block, in the order in which they are solved.

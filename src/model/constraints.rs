@@ -16,6 +16,7 @@
 //! result.
 
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::shared::Shared;
 use crate::math::sort::sort_groups;
 use crate::mesh::{Corner, Mesh, NONE, next_corner, prev_corner, triangle_of};
 use crate::model::chains::Chains;
@@ -44,7 +45,7 @@ pub(crate) struct Constraints {
     /// Hinges, which resist bending on a mesh that is not a grid.
     pub hinges: Hinges,
     /// Whether the definition of a link in `links` has changed since creation.
-    pub(super) is_changed: Vec<bool>,
+    pub(super) is_changed: Shared<Vec<bool>>,
     /// Links added by tears and cuts, in order of creation, see `dynamic_links`.
     pub dynamic: Links,
     /// Active dynamic links by colour; valid after `rebuild_sparse`.
@@ -55,11 +56,11 @@ pub(crate) struct Constraints {
     pub(super) dynamic_sites: Vec<[u32; 4]>,
     /// Number of the link along the edge that starts at each corner, see `dynamic_links`; `NONE` on
     /// the second side of an inner edge.
-    pub(super) link_of_edge: Vec<u32>,
+    pub(super) link_of_edge: Shared<Vec<u32>>,
     /// Links that depend on each original vertex (CSR):
-    /// `links_by_site[first_of_site[v]..first_of_site[v + 1]]`.
-    pub(super) first_of_site: Vec<u32>,
-    pub(super) links_by_site: Vec<u32>,
+    /// `links_by_site[first_of_site[v]..first_of_site[v + 1]]`. Empty until the cloth can tear.
+    pub(super) first_of_site: Shared<Vec<u32>>,
+    pub(super) links_by_site: Shared<Vec<u32>>,
     /// Dynamic links of each site, as linked lists.
     pub(super) dynamic_head: Vec<u32>,
     pub(super) dynamic_next: Vec<[u32; 4]>,
@@ -269,7 +270,6 @@ impl Constraints {
                 link_of_edge[edge_of(spec.ends) as usize] = at as u32;
             }
         }
-        let (first_of_site, links_by_site) = index_links_by_site(mesh, &links);
         let is_changed = vec![false; links.len()];
         let mut dynamic = Links::default();
         dynamic.reserve(opening_capacity);
@@ -284,17 +284,60 @@ impl Constraints {
             rows: None,
             chains: Chains::default(),
             hinges: Hinges::none(),
-            is_changed,
+            is_changed: Shared::new(is_changed),
             dynamic,
             sparse,
             coloring,
             dynamic_sites: Vec::with_capacity(opening_capacity),
-            link_of_edge,
-            first_of_site,
-            links_by_site,
+            link_of_edge: Shared::new(link_of_edge),
+            first_of_site: Shared::default(),
+            links_by_site: Shared::default(),
             dynamic_head: vec![NONE; mesh.original_count as usize],
             dynamic_next: Vec::with_capacity(opening_capacity),
             thread_directions: None,
+        }
+    }
+
+    /// Finds for each original vertex the links that depend on it, unless they are known. `mesh` must
+    /// not be torn.
+    #[inline(never)]
+    pub fn index_links_by_site(&mut self, mesh: &Mesh) {
+        if !self.first_of_site.is_empty() {
+            return;
+        }
+        let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(4 * self.links.len());
+        for (at, spec) in self.links.spec.iter().enumerate() {
+            pairs.extend(spec.dependent_corners().map(|corner| [mesh.vertex(corner), at as u32]));
+        }
+        sort_groups(&mut pairs, |[vertex, _]| *vertex);
+        pairs.dedup();
+        let mut first = vec![0u32; mesh.original_count as usize + 1];
+        for [vertex, _] in &pairs {
+            first[*vertex as usize + 1] += 1;
+        }
+        for vertex in 1..first.len() {
+            first[vertex] += first[vertex - 1];
+        }
+        let mut of_sites = Vec::with_capacity(pairs.len());
+        of_sites.extend(pairs.iter().map(|[_, link]| *link));
+        (self.first_of_site, self.links_by_site) = (Shared::new(first), Shared::new(of_sites));
+    }
+
+    /// Makes all that damping changes unique.
+    pub fn make_lengths_unique(&mut self) {
+        self.links.make_lengths_unique();
+        self.dynamic.make_lengths_unique();
+        self.chains.blocks.make_unique();
+    }
+
+    /// Makes all that tears change unique.
+    pub fn make_unique(&mut self) {
+        self.links.make_unique();
+        self.is_changed.make_unique();
+        self.link_of_edge.make_unique();
+        self.chains.blocks.make_unique();
+        if let Some(rows) = &mut self.rows {
+            rows.mask.make_unique();
         }
     }
 
@@ -396,27 +439,6 @@ fn edge_between_triangles(mesh: &Mesh, triangle: u32, other: u32) -> Corner {
     let found = (3 * triangle..3 * triangle + 3).find(|edge| mesh.across(*edge) == other);
     debug_assert!(found.is_some(), "triangles {triangle} and {other} share an edge");
     found.unwrap_or(3 * triangle)
-}
-
-/// Builds the CSR lists `first_of_site` and `links_by_site`: for each original vertex, the links
-/// that depend on it.
-fn index_links_by_site(mesh: &Mesh, links: &Links) -> (Vec<u32>, Vec<u32>) {
-    let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(4 * links.len());
-    for (at, spec) in links.spec.iter().enumerate() {
-        pairs.extend(spec.dependent_corners().map(|corner| [mesh.vertex(corner), at as u32]));
-    }
-    sort_groups(&mut pairs, |[vertex, _]| *vertex);
-    pairs.dedup();
-    let mut first = vec![0u32; mesh.original_count as usize + 1];
-    for [vertex, _] in &pairs {
-        first[*vertex as usize + 1] += 1;
-    }
-    for vertex in 1..first.len() {
-        first[vertex] += first[vertex - 1];
-    }
-    let mut of_sites = Vec::with_capacity(pairs.len());
-    of_sites.extend(pairs.iter().map(|[_, link]| *link));
-    (first, of_sites)
 }
 
 /// Lookup of edges by their two vertices.

@@ -14,6 +14,7 @@
 //! Invariant: a link is active exactly if its mask is 1 or it is in the irregular set.
 
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::shared::Shared;
 use crate::math::simd::MAX_LANES;
 use crate::model::link_set::LinkSet;
 use crate::model::links::{LinkBatch, Links};
@@ -59,13 +60,13 @@ pub(crate) struct LinkRow {
 pub(crate) struct GridRows {
     pub rows: Vec<LinkRow>,
     /// 1 for a link in its row, 0 for one that left it.
-    pub mask: Vec<f32>,
+    pub mask: Shared<Vec<f32>>,
     /// Active links that left their row.
     irregular: LinkSet,
     /// The irregular links as the kernels read them, batch by batch; valid after `rebuild_sparse`.
     pub sparse: SparseLinks,
     /// Row of each link.
-    row_of: Vec<u32>,
+    row_of: Shared<Vec<u32>>,
 }
 
 heap_bytes!(GridRows { rows, mask, irregular, sparse, row_of } plain {});
@@ -89,7 +90,7 @@ impl GridRows {
             }
             row_of.push(rows.len() as u32 - 1);
         }
-        let mask = vec![1.0; a.len()];
+        let (mask, row_of) = (Shared::new(vec![1.0; a.len()]), Shared::new(row_of));
         Self { rows, mask, row_of, ..Self::default() }
     }
 

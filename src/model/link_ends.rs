@@ -2,12 +2,13 @@
 //! per list instead of once per link.
 
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::shared::Shared;
 use core::ops::Deref;
 
 /// A list of particles, read as a slice.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LinkEnds {
-    list: Vec<u32>,
+    list: Shared<Vec<u32>>,
     /// Upper bound of all entries, past and present.
     max_particle: u32,
 }
@@ -23,6 +24,11 @@ impl LinkEnds {
     /// Allocates for `additional` more entries.
     pub fn reserve(&mut self, additional: usize) {
         self.list.reserve_exact(additional);
+    }
+
+    /// Makes the list unique.
+    pub fn make_unique(&mut self) {
+        self.list.make_unique();
     }
 
     pub fn push(&mut self, particle: u32) {

@@ -14,6 +14,7 @@
 use crate::math::column::Column;
 use crate::math::heap_bytes::heap_bytes;
 use crate::math::min;
+use crate::math::shared::Shared;
 use crate::mesh::{Corner, Mesh, NONE, next_corner};
 use crate::model::link_ends::LinkEnds;
 use crate::model::maps::{Map, Maps};
@@ -88,22 +89,43 @@ pub(crate) struct Links {
     pub a: LinkEnds,
     pub b: LinkEnds,
     /// Rest length [m].
-    pub rest: Column,
+    pub rest: Shared<Column>,
     /// Inverse spring constant [m/N]; 0 is rigid.
-    pub compliance: Column,
-    /// Lagrange multiplier accumulated in this substep.
-    pub lambda: Column,
+    pub compliance: Shared<Column>,
     /// Whether the link acts; false once its support is gone.
     pub active: Vec<bool>,
     /// Definition.
-    pub spec: Vec<LinkSpec>,
+    pub spec: Shared<Vec<LinkSpec>>,
 }
 
-heap_bytes!(Links { a, b, rest, compliance, lambda, active, spec } plain {});
+heap_bytes!(Links { a, b, rest, compliance, active, spec } plain {});
+
+/// What compliant links read and write in a substep.
+#[derive(Debug)]
+pub(crate) struct SoftLinks<'a> {
+    /// Inverse spring constants [m/N].
+    pub compliance: &'a [f32],
+    /// Lagrange multipliers accumulated in this substep.
+    pub lambda: &'a mut [f32],
+}
 
 impl Links {
     pub fn len(&self) -> usize {
         self.rest.len()
+    }
+
+    /// Makes all that damping changes unique.
+    pub fn make_lengths_unique(&mut self) {
+        self.rest.make_unique();
+        self.compliance.make_unique();
+    }
+
+    /// Makes all that tears change unique.
+    pub fn make_unique(&mut self) {
+        self.make_lengths_unique();
+        self.a.make_unique();
+        self.b.make_unique();
+        self.spec.make_unique();
     }
 
     pub fn kind(&self, link: usize) -> LinkKind {
@@ -122,7 +144,6 @@ impl Links {
         self.b.reserve(capacity);
         self.rest.reserve(in_all);
         self.compliance.reserve(in_all);
-        self.lambda.reserve(in_all);
         self.active.reserve_exact(capacity);
         self.spec.reserve_exact(capacity);
     }
@@ -133,7 +154,6 @@ impl Links {
         self.b.push(mesh.vertex(spec.ends[1]));
         self.rest.push(rest);
         self.compliance.push(0.0);
-        self.lambda.push(0.0);
         self.active.push(true);
         self.spec.push(spec);
     }
@@ -160,11 +180,14 @@ impl Links {
     pub fn update_compliance(&mut self, link: usize, material: &Material, maps: &Maps) {
         let spec = &self.spec[link];
         let compliance = compliance(spec, material);
-        self.compliance[link] = if spec.kind == LinkKind::Bend || compliance == 0.0 {
+        let compliance = if spec.kind == LinkKind::Bend || compliance == 0.0 {
             compliance
         } else {
             painted_compliance(compliance, maps.mean(Map::Stretch, &[self.a[link], self.b[link]]))
         };
+        if self.compliance[link] != compliance {
+            self.compliance[link] = compliance;
+        }
     }
 }
 

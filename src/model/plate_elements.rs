@@ -19,6 +19,7 @@
 //! connected.
 
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::reserve::zeros;
 use crate::mesh::Mesh;
 use crate::mesh::grid::cell_triangles;
 use crate::model::irregular_bend::IrregularBends;
@@ -64,7 +65,7 @@ impl PlateElements {
     pub fn new(columns: u32, rows: u32, spacing: f32, mesh: &Mesh, links: &Links) -> Self {
         let (columns, rows) = (columns as usize, rows as usize);
         let count = columns * rows;
-        let mut created_fraction = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+        let mut created_fraction = [zeros(count), zeros(count), zeros(count)];
         let border_fraction = |at: usize, lines: usize| {
             let is_border = at == 0 || at == lines - 1;
             if is_border { 0.5 } else { 1.0 }

@@ -20,6 +20,7 @@ pub(crate) mod particle_stage;
 pub(crate) mod pipeline;
 pub(crate) mod profile;
 pub(crate) mod rebase;
+pub(crate) mod scratch_pool;
 pub(crate) mod self_collide;
 pub(crate) mod stage;
 pub(crate) mod stretch;

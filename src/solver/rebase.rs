@@ -104,10 +104,10 @@ impl World {
         self.colliders.iter_mut().for_each(|body| body.move_origin(origin, shift));
         self.origin = origin;
         self.scratch.contacts.nearby.invalidate();
-        if let Some(collision) = &mut self.particle_collision {
+        if let Some(collision) = &mut self.scratch.particle_collision {
             collision.invalidate();
         }
-        if let Some(surface) = &mut self.surface_collision {
+        if let Some(surface) = &mut self.scratch.surface_collision {
             surface.invalidate();
         }
         // Rounding may change distances: measure pins again as a restored cloth does, and look for

@@ -1,32 +1,42 @@
 //! Scratch buffers of the stages of a tick.
 //!
 //! Data only: caches of one cloth that can be rebuilt; none of it is saved or hashed. The doc of a
-//! field names the stage that writes it.
+//! field names the stage that writes it. The lists whose content lives within a tick belong to the
+//! thread: `scratch_pool` lends them to the cloth that it steps, and they are empty otherwise.
 //!
-//! Invariant: `cloth::reserve` allocates the buffers for all particles that ticks may make, so that
-//! no tick allocates.
+//! Invariant: `cloth::reserve` and `scratch_pool` allocate the buffers for all particles that ticks
+//! may make, so that no tick allocates.
 
+use crate::math::column::Column;
 use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::swap::swap;
 use crate::mesh::split_vertex::OpenedEdge;
 use crate::solver::bend::bend_scratch::BendScratch;
 use crate::solver::collide::contact_scratch::ContactScratch;
 use crate::solver::integrate::expected_momentum::ExpectedMomentum;
 use crate::solver::particle_stage::interleaved_particles::InterleavedParticles;
+use crate::solver::self_collide::particle_pairs::ParticleCollision;
+use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
 use crate::solver::stretch::damping_scratch::DampingScratch;
 use crate::solver::stretch::end_weights::EndWeights;
-use crate::solver::stretch::line_scratch::LineScratch;
+use crate::solver::stretch::line_scratch::{LineLengths, LineScratch};
 use crate::solver::stretch::rollback_state::RollbackState;
 use crate::solver::topology::piece_labels::PieceLabels;
 use crate::solver::topology::piece_members::PieceGroups;
 use crate::solver::topology::tear_scratch::TearScratch;
+use core::sync::atomic::{AtomicUsize, Ordering};
 use glam::Vec3;
 
 /// Scratch buffers, allocated once so that no tick allocates.
 ///
 /// Columns have one entry per particle, unless their doc says otherwise.
-#[derive(Clone, Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct TickScratch {
+    /// The cloth that these buffers belong to; in a pool, the last one that they were lent to.
+    pub owner: ScratchOwner,
+    /// Lengths of the lists of `lines`. Written by `cloth::reserve`.
+    pub line_lengths: LineLengths,
     /// Acceleration of each particle by gravity and air [m/s²]. Written by stage `Forces`, once per
     /// tick or more often.
     pub acceleration: Columns,
@@ -64,6 +74,9 @@ pub(crate) struct TickScratch {
     pub lines: LineScratch,
     /// Normals, rest directions and linear systems of stage `Bend`, which writes them.
     pub bend: BendScratch,
+    /// Lagrange multiplier of each link, and of each dynamic link, accumulated in this substep.
+    /// Written by stages `Stretch` and `Shear`.
+    pub lambda: [Column; 2],
     /// Rest lengths [m] and compliances [m/N] of the links without damping. Written by
     /// `stretch::damping`.
     pub damping: DampingScratch,
@@ -89,60 +102,102 @@ pub(crate) struct TickScratch {
     pub piece_groups: PieceGroups,
     /// Stack of the flood fill that labels the pieces.
     pub piece_stack: Vec<u32>,
+    /// Data of particle collision, while `self_collision` is `Particles`. Written by
+    /// `particle_contacts`.
+    pub particle_collision: Option<Box<ParticleCollision>>,
+    /// Data of surface collision, while `self_collision` is `Surface`. Written by `surface_stages`.
+    pub surface_collision: Option<Box<SurfaceCollision>>,
+}
+
+impl Clone for TickScratch {
+    /// Makes buffers without memory: a cloned cloth allocates and fills its own.
+    fn clone(&self) -> Self {
+        Self::empty()
+    }
 }
 
 heap_bytes!(
-    TickScratch { acceleration, relative_wind, displacement, predicted, initial_velocity, tether_pins, effective_mass, correction, anchor_moved, end_weights, interleaved, lines, bend, damping, tear, rollback, opened_edges, pieces, piece_groups, piece_stack }
-    plain { contacts, expected_momentum, rests_on_collider }
+    TickScratch {
+        tether_pins, effective_mass, anchor_moved, end_weights, bend, damping, contacts, tear,
+        opened_edges, pieces, piece_groups, piece_stack, particle_collision, surface_collision,
+    } plain {
+        owner, line_lengths, acceleration, relative_wind, displacement, predicted,
+        initial_velocity, correction, interleaved, lines, lambda, rollback, expected_momentum,
+        rests_on_collider,
+    }
 );
 
+/// The identity of a cloth among all those that use pools of scratch buffers. It changes with what the
+/// cloth needs, so that a pool which it was lent to before that has to be adapted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ScratchOwner {
+    id: usize,
+    /// Number of particles, and of dynamic links for which there is memory.
+    pub lengths: [usize; 2],
+}
+
+impl Default for ScratchOwner {
+    fn default() -> Self {
+        static NEXT: AtomicUsize = AtomicUsize::new(0);
+        Self { id: NEXT.fetch_add(1, Ordering::Relaxed), lengths: [0; 2] }
+    }
+}
+
 impl TickScratch {
-    /// Allocates buffers for `capacity` particles, of which `count` exist now. Bending, lines,
-    /// damping, pieces and tears get theirs later, see `cloth::reserve`.
-    pub fn new(count: usize, capacity: usize) -> Self {
-        let zero = |list: &mut Columns| (0..count).for_each(|_| list.push(Vec3::ZERO));
-        let mut scratch = Self {
-            acceleration: Columns::with_capacity(capacity),
-            relative_wind: Columns::with_capacity(capacity),
-            displacement: Columns::with_capacity(capacity),
-            predicted: Columns::with_capacity(capacity),
-            initial_velocity: Columns::with_capacity(capacity),
-            tether_pins: Columns::with_capacity(capacity),
-            correction: Columns::with_capacity(capacity),
-            effective_mass: Vec::new(),
-            anchor_moved: Vec::new(),
-            end_weights: EndWeights::default(),
-            interleaved: InterleavedParticles::default(),
-            lines: LineScratch::default(),
-            bend: BendScratch::default(),
-            damping: DampingScratch::default(),
-            contacts: ContactScratch::default(),
-            tear: TearScratch::default(),
-            rollback: RollbackState::with_capacity(capacity),
-            opened_edges: Vec::new(),
-            pieces: PieceLabels::default(),
-            expected_momentum: None,
-            rests_on_collider: false,
-            piece_groups: PieceGroups::default(),
-            piece_stack: Vec::new(),
-        };
-        zero(&mut scratch.acceleration);
-        zero(&mut scratch.relative_wind);
-        zero(&mut scratch.displacement);
-        zero(&mut scratch.predicted);
-        scratch
+    /// Makes buffers without memory.
+    #[inline(never)]
+    pub fn empty() -> Self {
+        Self::default()
     }
 
-    /// Allocates the buffers that have one entry per particle for `capacity` particles.
-    pub fn reserve(&mut self, capacity: usize) {
-        let Self { acceleration, relative_wind, displacement, predicted, correction, .. } = self;
-        for columns in [acceleration, relative_wind, displacement, predicted, correction] {
-            columns.reserve(capacity);
+    /// Exchanges the lists whose content lives within a tick with those of `other`.
+    pub fn swap_lent(&mut self, other: &mut Self) {
+        let [own, others] = [&mut *self, &mut *other].map(Self::lent_columns);
+        own.into_iter().zip(others).for_each(|(own, other)| swap(own, other));
+        swap(&mut self.interleaved, &mut other.interleaved);
+        swap(&mut self.lines, &mut other.lines);
+        swap(&mut self.lambda, &mut other.lambda);
+        self.contacts.swap_lent(&mut other.contacts);
+        self.bend.plates.swap_lent(&mut other.bend.plates);
+    }
+
+    fn lent_columns(&mut self) -> [&mut Columns; 8] {
+        [
+            &mut self.acceleration,
+            &mut self.relative_wind,
+            &mut self.displacement,
+            &mut self.predicted,
+            &mut self.initial_velocity,
+            &mut self.correction,
+            &mut self.rollback.positions,
+            &mut self.rollback.before,
+        ]
+    }
+
+    /// Makes the same lists those of a cloth that was just made, but for their memory.
+    #[inline(never)]
+    pub fn clear_lent(&mut self) {
+        self.lent_columns().into_iter().for_each(|columns| columns.resize(0));
+        self.interleaved.clear();
+        self.lines.clear();
+        self.lambda.iter_mut().for_each(Column::clear);
+        self.contacts.clear_lent();
+        self.bend.plates.clear_lent();
+    }
+
+    /// Allocates the columns for `capacity` particles, of which `count` exist now: also those that
+    /// only a strain limit or a collider needs, where there is one.
+    #[inline(never)]
+    pub fn reserve_columns(&mut self, count: usize, capacity: usize, [limit, body]: [bool; 2]) {
+        let is_used = [true, true, true, true, limit, true, true, body];
+        for (columns, is_used) in self.lent_columns().into_iter().zip(is_used) {
+            if is_used {
+                columns.reserve(capacity);
+            }
         }
-        for columns in [&mut self.initial_velocity, &mut self.tether_pins] {
-            columns.reserve(capacity);
+        for columns in self.lent_columns().into_iter().take(4) {
+            columns.resize(count);
         }
-        self.rollback.positions.reserve(capacity);
     }
 
     /// Appends one zeroed particle to the buffers that have one entry per particle.

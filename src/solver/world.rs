@@ -17,6 +17,7 @@
 
 use crate::geometry::triangle::corner_areas;
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::shared::Shared;
 use crate::math::simd::Level;
 use crate::math::threads::Threads;
 use crate::mesh::grid::GridFrame;
@@ -34,8 +35,6 @@ use crate::model::tethers::Tethers;
 use crate::solver::integrate::sleep_timer::SleepTimer;
 use crate::solver::profile::Profile;
 use crate::solver::self_collide::contact_forces::WarmStart;
-use crate::solver::self_collide::particle_pairs::ParticleCollision;
-use crate::solver::self_collide::surface::surface_collision::SurfaceCollision;
 use crate::solver::tick_scratch::TickScratch;
 use crate::state::anchors::AnchorConstraints;
 use crate::state::attachments::Attachments;
@@ -63,7 +62,7 @@ pub(crate) const MIN_PARTICLES_PER_THREAD: usize = 16_384;
 #[derive(Clone, Debug)]
 pub(crate) struct World {
     /// Triangles over particles and their adjacency. Written by tears and cuts.
-    pub mesh: Mesh,
+    pub mesh: Shared<Mesh>,
     /// Maps render vertices to particles; `None` if each particle is one vertex. Written by tears
     /// and cuts.
     pub seams: Option<Seams>,
@@ -88,14 +87,14 @@ pub(crate) struct World {
     /// `tether_slack`; cleared when pins or positions change.
     pub is_pin_stretch_current: bool,
     /// Rest position of each site, relative to `rest_origin` [m]. Cuts append sites.
-    pub rest: Vec<Vec3>,
+    pub rest: Shared<Vec<Vec3>>,
     /// The origin that the cloth was made with, see `solver::rebase` [m].
     pub rest_origin: Vec3,
     /// Edge points where cuts made sites; these sites follow those of the original vertices.
     /// Written by cuts.
     pub cut_sites: Vec<CutSite>,
     /// Share of its triangle's rest area that belongs to each corner [m²]. Written by cuts.
-    pub corner_area: Vec<[f32; 3]>,
+    pub corner_area: Shared<Vec<[f32; 3]>>,
     /// Origin, axes and spacing [m] of the rest grid; `None` for other meshes.
     pub grid_frame: Option<GridFrame>,
     /// Two triangles per grid cell, for sums over triangles in SIMD lanes; `None` for other meshes.
@@ -103,7 +102,7 @@ pub(crate) struct World {
     pub grid_cells: Option<GridCells>,
     /// Bending elements of a grid; `None` for other meshes, which bend at hinges. Written by tears
     /// and cuts.
-    pub plate_elements: Option<PlateElements>,
+    pub plate_elements: Option<Shared<PlateElements>>,
     /// Plastic rest angles [rad] of the bending elements, and their hardening. Written by
     /// `bend::update_folds` at the end of the tick, and by creases that the host sets.
     pub folds: Folds,
@@ -181,25 +180,19 @@ pub(crate) struct World {
     /// Number of ticks at rest. Written by `integrate::sleep`; a change by the host sets it to
     /// zero.
     pub sleep: SleepTimer,
-    /// Data of particle collision, while `self_collision` is `Particles`. Written by
-    /// `particle_contacts`.
-    pub particle_collision: Option<Box<ParticleCollision>>,
     /// Contact forces [N] of the last substep, used to warm-start the next; empty without surface
     /// collision. Written by `surface_stages`.
     pub warm_start: WarmStart,
     /// Whether the surface may intersect itself: each substep then tests all of it. Written by
     /// `surface_stages`; set when the host moves particles or turns surface collision on.
     pub is_tangled: bool,
-    /// Data of surface collision, while `self_collision` is `Surface`. Written by `surface_stages`.
-    pub surface_collision: Option<Box<SurfaceCollision>>,
 }
 
 heap_bytes!(
     World {
         mesh, seams, constraints, tethers, pin_order, rest, cut_sites, corner_area, grid_cells,
         plate_elements, folds, crack_tips, particles, mass_scales, pins, attachments, grabs,
-        anchors, sewing, colliders, maps, events, scratch, particle_collision, warm_start,
-        surface_collision,
+        anchors, sewing, colliders, maps, events, scratch, warm_start,
     } plain {
         tether_slack, pin_stretch, is_pin_stretch_current, rest_origin, grid_frame, mean_edge,
         origin, reference_pose, settings, material, wind, clock, pieces, particle_capacity,
@@ -303,7 +296,7 @@ impl World {
     /// Computes all masses [kg] from rest areas, density and mass scales, then all inverse masses.
     pub fn compute_masses(&mut self) {
         self.particles.mass.fill(0.0);
-        for (triangle, areas) in self.mesh.triangles.iter().zip(&self.corner_area) {
+        for (triangle, areas) in self.mesh.triangles.iter().zip(self.corner_area.iter()) {
             for (vertex, area) in triangle.iter().zip(areas) {
                 self.particles.mass[*vertex as usize] += area * self.material.density;
             }
@@ -316,9 +309,9 @@ impl World {
     pub fn refresh_corner_areas(&mut self, uncut: &Mesh) {
         let (mesh, rest) = (&self.mesh, &self.rest);
         let sites = |triangle: &[u32; 3]| triangle.map(|v| mesh.source[v as usize]);
-        self.corner_area.resize(mesh.triangles.len(), [0.0; 3]);
-        for (at, (triangle, areas)) in mesh.triangles.iter().zip(&mut self.corner_area).enumerate()
-        {
+        let corner_area = &mut *self.corner_area;
+        corner_area.resize(mesh.triangles.len(), [0.0; 3]);
+        for (at, (triangle, areas)) in mesh.triangles.iter().zip(corner_area).enumerate() {
             let sites = sites(triangle);
             if uncut.triangles.get(at) != Some(&sites) {
                 *areas = corner_areas(sites.map(|site| rest[site as usize]));

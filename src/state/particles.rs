@@ -10,7 +10,7 @@
 
 use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
-use crate::math::reserve::ReserveTotal;
+use crate::math::reserve::{ReserveTotal, zeros};
 use crate::math::{lerp, saturate};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -52,8 +52,8 @@ impl Particles {
             x,
             v_extrapolated: v.clone(),
             v,
-            mass: vec![0.0; positions.len()],
-            w: vec![0.0; positions.len()],
+            mass: zeros(positions.len()),
+            w: zeros(positions.len()),
         };
         particles.reserve(capacity);
         particles

@@ -16,4 +16,5 @@ mod pins;
 mod poses;
 mod refusals;
 mod scenes;
+mod scratch_pool;
 mod source_shape;

@@ -45,7 +45,8 @@ pub fn lint() -> Result {
 }
 
 /// The features of the crate that can be left out.
-const PARTS: [&str; 6] = ["cut", "facet-colliders", "save", "self-collision", "sewing", "skins"];
+const PARTS: [&str; 7] =
+    ["cut", "facet-colliders", "save", "self-collision", "sewing", "shared-rest", "skins"];
 
 /// Fails where clippy warns without one of the parts, without all, and in the module of
 /// `muslin/light`.

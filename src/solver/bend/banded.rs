@@ -13,6 +13,7 @@
 //! Invariant: a held particle (w = 0) is not part of its system; its solution is 0.
 
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::reserve::zeros;
 use crate::math::simd::{Level, leveled};
 
 /// Columns x, y, z of a vector per particle.
@@ -41,7 +42,7 @@ pub(crate) struct GridLine {
 impl PentadiagonalFactor {
     /// Allocates factors for `count` particles.
     pub fn new(count: usize) -> Self {
-        let list = || vec![0.0; count];
+        let list = || zeros(count);
         Self { inverse: list(), near: list(), far: list() }
     }
 

@@ -26,7 +26,9 @@
 
 use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::reserve::zeros;
 use crate::math::simd::Level;
+use crate::math::swap::swap;
 use crate::math::{max, same_bits};
 use crate::model::bend_scale::{BendScale, BendScaleKey};
 use crate::model::plate_elements::{PerKind, PlateElements};
@@ -38,7 +40,7 @@ use crate::solver::bend::plate_kernels::{
     gather_forces, gather_line_forces, next_step, subtract_momentum, subtract_rest, subtract_start,
 };
 use crate::solver::bend::spectral_bound;
-use crate::solver::bend::twist::{Twist, TwistOffset};
+use crate::solver::bend::twist::{Twist, TwistOffset, resize};
 
 /// Stiffness over mass from which the second solve runs.
 const MIN_SECOND_SOLVE: f32 = 0.25;
@@ -48,20 +50,26 @@ const SHIFT_FACTOR: f32 = 4.0;
 /// Largest stiffness over mass; beyond it f32 cannot distinguish the sheet from a rigid one.
 pub(crate) const MAX_STIFFNESS_OVER_MASS: f32 = 3.0e4;
 
-/// Buffers, and factors that are valid until pins, masses or stiffness change.
+/// Buffers of one tick.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct PlateScratch {
-    /// Stiffness of each element relative to an interior one.
-    weight: PerKind<Vec<f32>>,
+struct PlateBuffers {
     /// Weighted curvature of each element for one axis, with a margin on both sides.
     curve: PerKind<Vec<f32>>,
     /// Positions less the damping share of the start positions; later a force buffer.
     shifted: Vec<f32>,
     force: VectorColumns,
-    /// Upper bound of the stiffness over mass of any shape, relative to an interior element [1/kg].
-    bound: f32,
     /// Displacement by the weft and by the warp elements in this substep [m].
     total: [VectorColumns; 2],
+}
+
+/// Buffers, and factors that are valid until pins, masses or stiffness change.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PlateScratch {
+    buffers: PlateBuffers,
+    /// Stiffness of each element relative to an interior one.
+    weight: PerKind<Vec<f32>>,
+    /// Upper bound of the stiffness over mass of any shape, relative to an interior element [1/kg].
+    bound: f32,
     factors: [LineFactors; 2],
     twist: Twist,
     w: Vec<f32>,
@@ -73,8 +81,8 @@ pub(crate) struct PlateScratch {
 
 heap_bytes!(
     PlateScratch {
-        weight, curve, shifted, force, total, factors, twist, w, mass,
-    } plain { bound, revision, scale_key }
+        weight, factors, twist, w, mass,
+    } plain { buffers, bound, revision, scale_key }
 );
 
 /// Parameters of one solve.
@@ -100,15 +108,11 @@ pub(crate) struct PlateStep<'a> {
 impl PlateScratch {
     pub fn new(plates: &PlateElements) -> Self {
         let count = plates.count();
-        let list = || vec![0.0; count];
-        let around = || vec![0.0; count + 2 * (plates.columns + 1)];
+        let list = || zeros(count);
         Self {
+            buffers: PlateBuffers::default(),
             weight: [list(), list(), list()],
-            curve: [around(), around(), around()],
-            shifted: list(),
-            force: [list(), list(), list()],
             bound: 0.0,
-            total: [[list(), list(), list()], [list(), list(), list()]],
             factors: [LineFactors::new(count), LineFactors::new(count)],
             twist: Twist::new(plates),
             w: vec![-1.0; count],
@@ -116,6 +120,34 @@ impl PlateScratch {
             revision: plates.revision,
             scale_key: BendScaleKey::default(),
         }
+    }
+
+    /// Exchanges the buffers of one tick with those of `other`.
+    pub fn swap_lent(&mut self, other: &mut Self) {
+        swap(&mut self.buffers, &mut other.buffers);
+        self.twist.swap_lent(&mut other.twist);
+    }
+
+    fn lists_of_tick(&mut self) -> impl Iterator<Item = &mut Vec<f32>> {
+        let PlateBuffers { curve, shifted, force, total } = &mut self.buffers;
+        let lists = force.iter_mut().chain(total.as_flattened_mut()).chain([shifted]);
+        curve.iter_mut().chain(lists)
+    }
+
+    /// Empties the buffers of one tick.
+    pub fn clear_lent(&mut self) {
+        self.lists_of_tick().for_each(Vec::clear);
+        self.twist.clear_lent();
+    }
+
+    /// Gives the buffers of one tick the lengths for `plates`. New entries are zero.
+    #[inline(never)]
+    pub fn resize_lent(&mut self, plates: &PlateElements) {
+        let (count, margin) = (plates.count(), plates.columns + 1);
+        for (at, list) in self.lists_of_tick().enumerate() {
+            resize(list, if at < 3 { count + 2 * margin } else { count });
+        }
+        self.twist.resize_lent(plates);
     }
 
     /// Updates weights and bound if pins, masses or elements changed, and returns whether they did.
@@ -150,7 +182,7 @@ impl PlateScratch {
         }
         scale.apply(plates.columns, &mut self.weight);
         self.bound = if is_torn {
-            let buffers = (&mut self.shifted[..], &mut self.curve);
+            let buffers = (&mut self.buffers.shifted[..], &mut self.buffers.curve);
             spectral_bound::of_torn(plates.columns, &self.weight, &self.w, buffers)
         } else {
             spectral_bound::of_whole(plates.columns, &self.weight, &self.w)
@@ -167,7 +199,8 @@ impl PlateScratch {
         axis: usize,
         x: &[f32],
     ) {
-        let Self { weight, curve, shifted, force, .. } = self;
+        let Self { weight, buffers, .. } = self;
+        let PlateBuffers { curve, shifted, force, .. } = buffers;
         let x = shift_positions(step, axis, x, shifted);
         compute_curvature(step.level, x, weight, curve, columns);
         compute_twist(step.level, x, &weight[2], &mut curve[2], columns);
@@ -188,7 +221,8 @@ impl PlateScratch {
         mass: &[f32],
         is_first: bool,
     ) {
-        let Self { weight, curve, shifted, force, total, factors, .. } = self;
+        let Self { weight, buffers, factors, .. } = self;
+        let PlateBuffers { curve, shifted, force, total } = buffers;
         let (kind, stride) = match direction {
             Direction::Weft => (0, 1),
             Direction::Warp => (1, columns),
@@ -268,8 +302,8 @@ fn solve_chebyshev(
 ) {
     for (axis, x) in x.slices_mut().into_iter().enumerate() {
         scratch.compute_force(step, stiffness, columns, axis, x);
-        let PlateScratch { weight, curve, shifted: force_change, force, total, w, mass, .. } =
-            &mut *scratch;
+        let PlateScratch { weight, buffers, w, mass, .. } = &mut *scratch;
+        let PlateBuffers { curve, shifted: force_change, force, total } = buffers;
         let (force, displacement) = (&mut force[axis][..], &mut total[0][axis][..]);
         let x = &mut x[..displacement.len()];
         let [[_, gain], rest @ ..] = chebyshev.steps() else {

@@ -17,22 +17,17 @@
 
 use crate::math::columns::Columns;
 use crate::math::heap_bytes::heap_bytes;
+use crate::math::reserve::{ReserveTotal, zeros};
 use crate::math::simd::{Level, leveled};
+use crate::math::swap::swap;
 use crate::model::plate_elements::PlateElements;
 use crate::solver::bend::banded::VectorColumns;
 
-/// Multipliers and buffers of the twist, and factors that are valid until pins, masses or stiffness
-/// change.
+/// Multipliers and buffers of one tick.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Twist {
+struct TwistBuffers {
     /// Multipliers of this substep, one vector per cell [kg m].
     lambda: VectorColumns,
-    /// Compliance of each cell [1/kg]; 0 where there is no cell.
-    compliance: Vec<f32>,
-    /// Factors of the strips along rows, and of the even and the odd strips along columns; the
-    /// entries of other strips are 0.
-    rows: TridiagonalFactor,
-    columns: [TridiagonalFactor; 2],
     /// Start positions of one axis, and the damping share of the twist at the start, in the order
     /// of additions of rows and of columns.
     start: Vec<f32>,
@@ -43,11 +38,19 @@ pub(crate) struct Twist {
     change: VectorColumns,
 }
 
-heap_bytes!(
-    Twist {
-        lambda, compliance, rows, columns, start, start_twist, rest, change,
-    } plain {}
-);
+/// Buffers of the twist, and factors that are valid until pins, masses or stiffness change.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Twist {
+    buffers: TwistBuffers,
+    /// Compliance of each cell [1/kg]; 0 where there is no cell.
+    compliance: Vec<f32>,
+    /// Factors of the strips along rows, and of the even and the odd strips along columns; the
+    /// entries of other strips are 0.
+    rows: TridiagonalFactor,
+    columns: [TridiagonalFactor; 2],
+}
+
+heap_bytes!(Twist { compliance, rows, columns } plain { buffers });
 
 /// L D Lᵀ factors of tridiagonal systems.
 #[derive(Clone, Debug, Default)]
@@ -81,18 +84,36 @@ pub(crate) struct TwistOffset<'a> {
 impl Twist {
     pub fn new(plates: &PlateElements) -> Self {
         let count = plates.count();
-        let factor = || TridiagonalFactor { inverse: vec![0.0; count], near: vec![0.0; count] };
-        let list = || vec![0.0; count];
-        let change = || vec![0.0; margin(plates.columns) + count];
+        let factor = || TridiagonalFactor { inverse: zeros(count), near: zeros(count) };
         Self {
-            lambda: [list(), list(), list()],
-            compliance: list(),
+            buffers: TwistBuffers::default(),
+            compliance: zeros(count),
             rows: factor(),
             columns: [factor(), factor()],
-            start: list(),
-            start_twist: [[list(), list(), list()], [list(), list(), list()]],
-            rest: [list(), list(), list()],
-            change: [change(), change(), change()],
+        }
+    }
+
+    /// Exchanges the buffers of one tick with those of `other`.
+    pub fn swap_lent(&mut self, other: &mut Self) {
+        swap(&mut self.buffers, &mut other.buffers);
+    }
+
+    fn lists_of_tick(&mut self) -> impl Iterator<Item = &mut Vec<f32>> {
+        let TwistBuffers { lambda, start, start_twist, rest, change } = &mut self.buffers;
+        let lists = start_twist.as_flattened_mut().iter_mut().chain(lambda).chain(rest);
+        change.iter_mut().chain(lists).chain([start])
+    }
+
+    /// Empties the buffers of one tick.
+    pub fn clear_lent(&mut self) {
+        self.lists_of_tick().for_each(Vec::clear);
+    }
+
+    /// Gives the buffers of one tick the lengths for `plates`. New entries are zero.
+    pub fn resize_lent(&mut self, plates: &PlateElements) {
+        let (count, margin) = (plates.count(), margin(plates.columns));
+        for (at, list) in self.lists_of_tick().enumerate() {
+            resize(list, if at < 3 { margin + count } else { count });
         }
     }
 
@@ -127,7 +148,7 @@ impl Twist {
     ) {
         self.compute_offsets(level, columns, offset);
         if is_first {
-            self.lambda.iter_mut().for_each(|lambda| lambda.fill(0.0));
+            self.buffers.lambda.iter_mut().for_each(|lambda| lambda.fill(0.0));
             for odd in 0..2 {
                 self.solve_rows(level, columns, x, w, odd);
             }
@@ -146,7 +167,7 @@ impl Twist {
 
     /// Computes the offsets by damping and by folds.
     fn compute_offsets(&mut self, level: Level, columns: usize, offset: TwistOffset<'_>) {
-        let Self { start, start_twist: [rows, across], rest, .. } = self;
+        let TwistBuffers { start, start_twist: [rows, across], rest, .. } = &mut self.buffers;
         let count = start.len();
         let cells = count - columns - 1;
         for axis in 0..3 {
@@ -189,13 +210,13 @@ impl Twist {
 
     fn solve_rows(&mut self, level: Level, columns: usize, x: &mut Columns, w: &[f32], odd: usize) {
         let strides = [1, columns];
-        let last = self.start.len() / columns - 1;
+        let last = self.buffers.start.len() / columns - 1;
         for row in (odd..last).step_by(2) {
             // The last index of a row has no cell and no factors.
             let first = row * columns;
             self.compute_residual(level, strides, x, [first, first + columns - 1], 0);
         }
-        self.rows.solve_rows(columns, odd, &mut self.change);
+        self.rows.solve_rows(columns, odd, &mut self.buffers.change);
         self.apply_change(level, strides, x, w);
     }
 
@@ -208,10 +229,10 @@ impl Twist {
         odd: usize,
     ) {
         let strides = [columns, 1];
-        let cells = self.start.len() - columns - 1;
+        let cells = self.buffers.start.len() - columns - 1;
         self.compute_residual(level, strides, x, [0, cells], 1);
         let factor = &self.columns[odd];
-        for change in &mut self.change {
+        for change in &mut self.buffers.change {
             substitute_columns(level, &mut change[margin(columns)..], factor, columns);
         }
         self.apply_change(level, strides, x, w);
@@ -226,7 +247,8 @@ impl Twist {
         [from, to]: [usize; 2],
         kind: usize,
     ) {
-        let Self { lambda, compliance, start_twist, rest, change, .. } = self;
+        let Self { compliance, buffers, .. } = self;
+        let TwistBuffers { lambda, start_twist, rest, change, .. } = buffers;
         let margin_length = strides[0] + strides[1];
         for (axis, (change, lambda)) in change.iter_mut().zip(lambda).enumerate() {
             let offsets = [&start_twist[kind][axis][from..to], &rest[axis][from..to]];
@@ -245,12 +267,19 @@ impl Twist {
 
     /// Adds the changes to the multipliers and moves the particles.
     fn apply_change(&mut self, level: Level, strides: [usize; 2], x: &mut Columns, w: &[f32]) {
-        let Self { lambda, change, .. } = self;
+        let TwistBuffers { lambda, change, .. } = &mut self.buffers;
         for ((lambda, change), x) in lambda.iter_mut().zip(change).zip(x.slices_mut()) {
             let count = lambda.len();
             apply_lambda(level, lambda, change, &mut x[..count], &w[..count], strides);
         }
     }
+}
+
+/// Truncates a list to `count` entries, or extends it with zeros in memory for exactly so many.
+#[inline(never)]
+pub(super) fn resize(list: &mut Vec<f32>, count: usize) {
+    list.reserve_total(count);
+    list.resize(count, 0.0);
 }
 
 /// Number of zeros before the first cell, so that each cell has a neighbour before, above and

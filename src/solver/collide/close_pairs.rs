@@ -45,7 +45,7 @@ pub(super) struct PushedCorner {
 
 /// All particles in the rounds of one search.
 pub(super) struct PushedCorners<'a> {
-    corners: &'a mut Vec<PushedCorner>,
+    list: &'a mut Vec<PushedCorner>,
     /// How far any of them has been pushed at most [m].
     pub farthest: f32,
 }
@@ -59,13 +59,13 @@ impl<'a> PushedCorners<'a> {
             let way = position.distance(particles.start_position(i));
             PushedCorner { position, way, pushed: 0.0 }
         }));
-        Self { corners, farthest: 0.0 }
+        Self { list: corners, farthest: 0.0 }
     }
 
     /// Measures how far the particles that the last round pushed are from where they began.
     pub fn measure(&mut self, pushed: &[u32], particles: &LocalParticles<'_>) {
         for i in pushed {
-            let corner = &mut self.corners[*i as usize];
+            let corner = &mut self.list[*i as usize];
             corner.pushed = particles.end_position(*i as usize).distance(corner.position);
             self.farthest = max(self.farthest, corner.pushed);
         }
@@ -74,7 +74,7 @@ impl<'a> PushedCorners<'a> {
     /// Returns whether none of some particles has been pushed as far as `slack` [m].
     #[inline(always)]
     pub fn are_within(&self, particles: &[u32], slack: f32) -> bool {
-        particles.iter().all(|i| self.corners[*i as usize].pushed < slack)
+        particles.iter().all(|i| self.list[*i as usize].pushed < slack)
     }
 }
 
@@ -138,7 +138,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn position(&self, i: u32) -> Vec3 {
-        self.corners.corners[i as usize].position
+        self.corners.list[i as usize].position
     }
 
     /// Returns the pair with this number if it may touch, from its distance [m], the particles of the
@@ -153,7 +153,7 @@ impl Search<'_> {
     ) -> Option<ClosePair> {
         let slack = |way: f32| min(distance - self.gap, (distance - way) * 0.5);
         let is_far = |slack: f32| slack > self.gap * MAX_PUSH_GAPS;
-        let own = particles.iter().map(|i| self.corners.corners[*i as usize].way).fold(0.0, max);
+        let own = particles.iter().map(|i| self.corners.list[*i as usize].way).fold(0.0, max);
         // A bound of the way relative to the feature is enough where it is small.
         let mut least = slack(own + carried);
         if least <= 0.0 && step.is_some() && distance > self.gap {

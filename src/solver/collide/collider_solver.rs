@@ -175,6 +175,7 @@ fn run_pass(
             is_far_from_zero: world.origin != Vec3::ZERO,
             contacts: &mut contacts.collider_contacts,
             contact_slots: &mut contacts.contact_slots,
+            max_contacts: contacts.max_contacts,
         };
         let candidates = &neighbours.candidates;
         let mut pushed = 0.0;

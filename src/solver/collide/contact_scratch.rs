@@ -1,12 +1,15 @@
 //! The data of collider contacts during a tick.
 //!
 //! Part of the cache of a cloth: everything here can be rebuilt, and none of it is saved or hashed.
-//! Stage functions in `collide` fill and read it.
+//! Stage functions in `collide` fill and read it. `nearby` and `long` hold between ticks and belong to
+//! the cloth, but for the candidate pairs; all other lists are lent by the pool of the thread.
 //!
-//! Invariant: after [`ContactScratch::reserve`] no stage allocates, except that a list of candidate
-//! pairs grows when there are more pairs than ever before.
+//! Invariant: after [`ContactScratch::reserve_lent`] no stage allocates, except that a list of
+//! candidate pairs grows when there are more pairs than ever before.
 
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
+use crate::math::swap::swap;
 use crate::solver::collide::body_motion::BodyMotion;
 use crate::solver::collide::close_pairs::{ClosePair, PushedCorner};
 use crate::solver::collide::collider_contact::ColliderContact;
@@ -27,8 +30,10 @@ pub(crate) struct ContactScratch {
     /// The motion of each live collider over this tick.
     pub(super) body_motions: Vec<BodyMotion>,
     /// The contacts of this substep, by collider, then in the order of detection. Contacts beyond
-    /// its capacity are dropped: their particles neither bounce nor push the collider.
+    /// `max_contacts` are dropped: their particles neither bounce nor push the collider.
     pub collider_contacts: Vec<ColliderContact>,
+    /// The largest number of contacts.
+    pub(super) max_contacts: usize,
     /// Scratch: the particles that another stage moved into a collider, as contacts.
     pub(super) projections: Vec<ColliderContact>,
     /// Scratch: for each of their particles the sum of its corrections [m].
@@ -82,26 +87,74 @@ impl ContactScratch {
         self.late_pushes.fill(Impulse::default());
     }
 
-    /// Allocates for `bodies` colliders and a cloth of at most `particles` particles and
-    /// `triangles` triangles.
+    /// Allocates what holds between ticks, for `bodies` colliders and a cloth of `particles` particles
+    /// and `triangles` triangles, and invalidates it.
     pub fn reserve(&mut self, bodies: usize, particles: usize, triangles: usize) {
         self.nearby.reserve(bodies, particles, triangles);
         self.long.reserve(particles, triangles);
+    }
+
+    /// Allocates the lent lists for `bodies` colliders and a cloth of at most `particles` particles
+    /// and `triangles` triangles.
+    #[inline(never)]
+    pub fn reserve_lent(&mut self, bodies: usize, particles: usize, triangles: usize) {
         self.body_motions.reserve_total(bodies);
-        let contacts = particles.saturating_sub(self.collider_contacts.len());
-        self.collider_contacts.reserve_exact(contacts);
+        self.max_contacts = particles;
+        self.collider_contacts.reserve_total(particles);
         self.projections.reserve_total(particles);
+        self.net_corrections.reserve_total(particles);
         self.net_corrections.resize(particles, Vec3::ZERO);
         self.projected.reserve_total(particles);
         self.impulses.reserve_total(bodies);
         self.late_pushes.reserve_total(bodies);
         self.clearance.reserve_total(particles);
         self.pushes.reserve(particles);
-        self.close_pairs.reserve(triangles);
+        self.close_pairs.reserve_total(triangles);
         self.long_pairs.reserve(triangles);
         self.corners.reserve_total(particles);
+        self.contact_slots.reserve_total(particles);
         self.contact_slots.resize(particles, 0);
         self.room.reserve(particles);
         self.is_inside.reserve_total(particles);
     }
+
+    /// Exchanges all that lives within a tick with that of `other`.
+    #[inline(never)]
+    pub fn swap_lent(&mut self, other: &mut Self) {
+        swap(self, other);
+        swap(&mut self.nearby, &mut other.nearby);
+        self.nearby.swap_lent(&mut other.nearby);
+        swap(&mut self.long, &mut other.long);
+    }
+
+    /// Makes the lent lists those of a cloth that was just made, but for their memory.
+    #[inline(never)]
+    pub fn clear_lent(&mut self) {
+        self.nearby.clear_lent();
+        self.body_motions.clear();
+        self.collider_contacts.clear();
+        self.projections.clear();
+        self.net_corrections.clear();
+        self.projected.clear();
+        self.impulses.clear();
+        (self.arrived, self.first_pusher) = (Impulse::default(), 0);
+        self.late_pushes.clear();
+        self.clearance.clear();
+        self.pushes.clear();
+        self.close_pairs.clear();
+        self.long_pairs.clear();
+        self.corners.clear();
+        self.contact_slots.clear();
+        self.room.clear();
+        self.is_inside.clear();
+        self.in_solid_meshes = Default::default();
+    }
 }
+
+heap_bytes!(
+    ContactScratch { nearby, long } plain {
+        body_motions, collider_contacts, max_contacts, projections, net_corrections, projected,
+        impulses, arrived, first_pusher, late_pushes, clearance, pushes, close_pairs, long_pairs,
+        corners, room, contact_slots, is_inside, in_solid_meshes,
+    }
+);

@@ -182,6 +182,8 @@ pub(super) struct LocalParticles<'a> {
     pub contacts: &'a mut Vec<ColliderContact>,
     /// For each particle the index of its last contact in `contacts`.
     pub contact_slots: &'a mut [u32],
+    /// The largest number of contacts.
+    pub max_contacts: usize,
 }
 
 impl LocalParticles<'_> {
@@ -303,7 +305,7 @@ impl LocalParticles<'_> {
             }
             contact.correction += correction;
             contact.weight = max(weight, contact.weight);
-        } else if self.contacts.len() < self.contacts.capacity() {
+        } else if self.contacts.len() < self.max_contacts {
             self.contact_slots[i] = self.contacts.len() as u32;
             self.contacts.push(ColliderContact {
                 particle: i as u32,

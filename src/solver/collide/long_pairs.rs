@@ -10,6 +10,7 @@
 use crate::geometry::aabb::Aabb;
 use crate::geometry::bends::SurfaceBend;
 use crate::geometry::features::{Feature, ShapeFeatures};
+use crate::math::reserve::ReserveTotal;
 use crate::mesh::{Mesh, NONE};
 use crate::solver::collide::close_pairs::ClosePair;
 use crate::solver::collide::local_particles::LocalParticles;
@@ -28,9 +29,9 @@ pub(super) struct LongPairs {
 impl LongPairs {
     /// Allocates for the usual number of pairs; more allocate when they are first found.
     pub fn reserve(&mut self, triangles: usize) {
-        self.edges.reserve(4 * triangles);
-        self.vertices.reserve(triangles);
-        self.close.reserve(triangles);
+        self.edges.reserve_total(4 * triangles);
+        self.vertices.reserve_total(triangles);
+        self.close.reserve_total(triangles);
     }
 
     pub fn clear(&mut self) {

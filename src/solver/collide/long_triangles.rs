@@ -14,6 +14,7 @@
 //! Invariant: the list depends only on the positions at these times and on the colliders.
 
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::max;
 use crate::math::reserve::ReserveTotal;
 use crate::math::simd::Level;
@@ -59,6 +60,10 @@ pub(crate) struct LongTriangles {
     /// The number of triangles then.
     triangles: usize,
 }
+
+heap_bytes!(
+    LongTriangles { list, edges, measured } plain { limit, is_current, longest, triangles }
+);
 
 impl LongTriangles {
     /// Allocates for `particles` particles and `triangles` triangles.

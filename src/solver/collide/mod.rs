@@ -52,8 +52,10 @@ mod triangle_vs_round;
 pub(crate) use crate::solver::collide::projection::{PROJECTION_GAP, Projection};
 
 use crate::geometry::transform::Transform;
+use crate::math::reserve::ReserveTotal;
 use crate::math::wide4::{Float4, xyz};
 use crate::solver::collide::projection::MAX_DEPENETRATION_SPEED;
+use crate::solver::scratch_pool;
 use crate::solver::world::World;
 use crate::state::colliders::{ColliderBody, Impulse};
 use glam::Vec3;
@@ -64,14 +66,32 @@ const MIN_PROJECTION: f32 = 1.0e-6;
 impl World {
     /// Allocates the contact buffers for all live colliders; without colliders it changes nothing.
     pub(crate) fn reserve_contacts(&mut self) {
-        let (bodies, particles) = (self.colliders.iter().count(), self.capacity());
+        let (bodies, particles) = (self.colliders.iter().count(), self.allocated_particles());
         if bodies > 0 {
-            self.scratch.contacts.reserve(bodies, particles, self.triangle_capacity);
-            self.scratch.rollback.before.reserve(particles);
+            let triangles = self.allocated_triangles();
+            let contacts = &mut self.scratch.contacts;
+            contacts.reserve(bodies, particles, triangles);
             if self.colliders.iter().any(|body| body.deformation().is_some()) {
-                let nearby = &mut self.scratch.contacts.nearby;
-                nearby.reserve_for_deforming(bodies, particles, self.triangle_capacity);
+                contacts.nearby.displacements.reserve_total(particles);
             }
+            scratch_pool::reserve(self);
+        }
+    }
+
+    /// Allocates the lent contact buffers for all live colliders.
+    pub(crate) fn reserve_lent_contacts(&mut self) {
+        let (bodies, particles) = (self.colliders.iter().count(), self.capacity());
+        let contacts = &mut self.scratch.contacts;
+        contacts.reserve_lent(bodies, particles, self.triangle_capacity);
+        let has_flat_faces = self
+            .colliders
+            .iter()
+            .any(|body| body.collision_shape().is_none_or(|shape| shape.bends().is_some()));
+        if has_flat_faces {
+            contacts.nearby.candidates.reserve(bodies, particles, self.triangle_capacity);
+        }
+        if self.colliders.iter().any(|body| body.deformation().is_some()) {
+            contacts.nearby.reserve_for_deforming(bodies, particles, self.triangle_capacity);
         }
     }
 }

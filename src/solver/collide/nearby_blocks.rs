@@ -14,8 +14,10 @@ use crate::geometry::aabb::Aabb;
 use crate::geometry::bends::SurfaceBend;
 use crate::geometry::collision_shape::CollisionShape;
 use crate::math::columns::Columns;
+use crate::math::heap_bytes::heap_bytes;
 use crate::math::max;
 use crate::math::reserve::ReserveTotal;
+use crate::math::swap::swap;
 use crate::solver::collide::mid_phase::{CandidateRange, Candidates, ColliderPairs};
 use crate::solver::collide::particle_motions::MotionBound;
 use crate::state::colliders::ColliderBody;
@@ -111,6 +113,15 @@ pub(super) fn of_deforming<T>(list: &[T]) -> &[T] {
     if cfg!(feature = "facet-colliders") { list } else { &[] }
 }
 
+heap_bytes!(
+    NearbyBlocks {
+        entries, blocks, positions_at_rebuild, displacements, particle_bounds, triangle_bounds,
+    } plain {
+        moment_of_rebuild, predicted, triangles_at_rebuild, longest_edge, is_stale, candidates,
+        earlier, moved, searched, motion_bounds,
+    }
+);
+
 impl NearbyBlocks {
     /// Allocates for `bodies` colliders, `particles` particles and `triangles` triangles, and
     /// invalidates the current blocks.
@@ -121,16 +132,35 @@ impl NearbyBlocks {
         self.entries.reserve_total(bodies);
         self.blocks.reserve_total(all);
         self.positions_at_rebuild.reserve(particles);
-        self.displacements.reserve_total(particles);
-        self.predicted.reserve(particles);
         self.particle_bounds.reserve_total(particle_blocks);
         self.triangle_bounds.reserve_total(triangle_blocks);
-        self.candidates.reserve(bodies, particles, triangles);
         self.is_stale = true;
     }
 
-    /// Allocates likewise what only colliders that deform need.
+    /// Exchanges the candidate pairs and what belongs to their search with those of `other`.
+    pub fn swap_lent(&mut self, other: &mut Self) {
+        swap(&mut self.candidates, &mut other.candidates);
+        swap(&mut self.earlier, &mut other.earlier);
+        swap(&mut self.predicted, &mut other.predicted);
+        swap(&mut self.moved, &mut other.moved);
+        swap(&mut self.searched, &mut other.searched);
+        swap(&mut self.motion_bounds, &mut other.motion_bounds);
+    }
+
+    /// Empties the same lists. The next search refills them: near shapes with flat faces one runs at
+    /// the start of every tick, and other shapes have no candidate pairs.
+    pub fn clear_lent(&mut self) {
+        self.candidates.clear();
+        self.earlier.clear();
+        self.predicted.resize(0);
+        self.moved.clear();
+        self.searched.clear();
+        self.motion_bounds.clear();
+    }
+
+    /// Allocates the lent lists that colliders that deform need, of any number of colliders.
     pub fn reserve_for_deforming(&mut self, bodies: usize, particles: usize, triangles: usize) {
+        self.predicted.reserve(particles);
         self.earlier.reserve(bodies, particles, triangles);
         self.earlier.reserve_for_deforming(bodies, triangles);
         self.candidates.reserve_for_deforming(bodies, triangles);

@@ -60,6 +60,13 @@ impl PushAccumulator {
         self.pushed.reserve_total(particles);
     }
 
+    /// Removes all particles.
+    pub fn clear(&mut self) {
+        self.sums.clear();
+        self.pushed.clear();
+        (self.rollback_depth, self.has_moved) = (None, false);
+    }
+
     /// From now on corners are not corrected but go back to where the substep began, if a
     /// penetration is deeper than this [m]. `None`: they are corrected, as at first.
     pub fn set_rollback(&mut self, depth: Option<f32>) {

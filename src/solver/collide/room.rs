@@ -15,8 +15,15 @@ pub(crate) struct Room {
 }
 
 impl Room {
+    /// Removes all particles.
+    pub fn clear(&mut self) {
+        self.shares.clear();
+        self.narrowed.clear();
+    }
+
     /// Allocates for `particles` particles.
     pub fn reserve(&mut self, particles: usize) {
+        self.shares.reserve_total(particles);
         self.shares.resize(particles, 1.0);
         self.narrowed.reserve_total(particles);
     }

@@ -153,7 +153,8 @@ pub(super) fn rests(world: &World) -> bool {
 fn may_lose_momentum(world: &World) -> bool {
     let contacts = &world.scratch.contacts.collider_contacts;
     if contacts.is_empty() {
-        let touches_itself = world.surface_collision.as_ref().is_some_and(|s| s.has_contacts());
+        let touches_itself =
+            world.scratch.surface_collision.as_ref().is_some_and(|s| s.has_contacts());
         return touches_itself || has_collider_impulse(world);
     }
     let resting_speed = 2.0 * world.regular_scheme().h * world.settings.gravity.length();

@@ -115,7 +115,7 @@ pub(super) fn has_collider_impulse(world: &World) -> bool {
 
 /// Whether particle collision, folds or damping of bending may exert a large torque on free cloth.
 pub(super) fn may_add_spin(world: &World) -> bool {
-    world.particle_collision.is_some() || world.has_pressure() || bend::may_add_spin(world)
+    world.scratch.particle_collision.is_some() || world.has_pressure() || bend::may_add_spin(world)
 }
 
 /// Subtracts the rigid motion with the momenta of `correction` about the positions that velocities

@@ -41,7 +41,7 @@ pub(crate) fn begin_particle_contacts(world: &mut World) {
         world.scratch.piece_groups.reset(world.pieces);
         sewn_pairs::join_sewn_pieces(world);
     }
-    if world.particle_collision.is_none() {
+    if world.scratch.particle_collision.is_none() {
         return;
     }
     if is_sewn && world.scratch.piece_groups.has_joined {
@@ -58,7 +58,7 @@ pub(crate) fn begin_particle_contacts(world: &mut World) {
 pub(crate) fn remove_internal_momentum(world: &mut World) {
     if world.pieces == 1 {
         momentum::remove_internal_momentum(world);
-    } else if (world.particle_collision.is_some() || !world.sewing.is_empty())
+    } else if (world.scratch.particle_collision.is_some() || !world.sewing.is_empty())
         && world.scratch.piece_groups.has_joined
     {
         remove_from_groups(world, Rounding::Exact);

@@ -9,7 +9,6 @@
 //! date.
 
 use crate::math::columns::Columns;
-use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::solver::particle_stage::access::ParticleAccess;
 use crate::state::particles::Particles;
@@ -26,13 +25,18 @@ pub(crate) struct InterleavedParticles {
     pub w: Vec<f32>,
 }
 
-heap_bytes!(InterleavedParticles { points, w } plain { is_current });
-
 impl InterleavedParticles {
     /// Grows the capacity to `particles` in all.
     pub fn reserve(&mut self, particles: usize) {
         self.points.reserve_total(particles);
         self.w.reserve_total(particles);
+    }
+
+    /// Removes all particles.
+    pub fn clear(&mut self) {
+        self.points.clear();
+        self.w.clear();
+        self.is_current = false;
     }
 
     /// Copies positions and inverse masses from their columns.

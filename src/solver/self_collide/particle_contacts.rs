@@ -55,7 +55,7 @@ impl World {
     /// Rebuilds the data of particle collision, or drops it, by `settings.self_collision`.
     pub fn rebuild_particle_collision(&mut self) {
         let is_wanted = self.settings.self_collision == SelfCollision::Particles;
-        self.particle_collision = is_wanted.then(|| {
+        self.scratch.particle_collision = is_wanted.then(|| {
             let input = pair_list_input(self);
             let (distance, capacity) = (largest_distance(self), self.capacity());
             Box::new(ParticleCollision::new(input, distance, self.mean_edge, capacity))
@@ -106,11 +106,11 @@ impl PairDistance<'_> {
 
 /// Rebuilds the pair list if particles moved too far since it was made.
 pub(crate) fn refresh_pairs(world: &mut World) {
-    let Some(mut collision) = world.particle_collision.take() else {
+    let Some(mut collision) = world.scratch.particle_collision.take() else {
         return;
     };
     collision.refresh_pairs(pair_list_input(world));
-    world.particle_collision = Some(collision);
+    world.scratch.particle_collision = Some(collision);
 }
 
 /// Joins the pieces of free particles that are too near, in `scratch.piece_groups`.
@@ -118,7 +118,7 @@ pub(crate) fn join_touching_pieces(world: &mut World) {
     let unscaled = collision_distance(world);
     let groups = &mut world.scratch.piece_groups;
     groups.reset(world.pieces);
-    let Some(collision) = &world.particle_collision else {
+    let Some(collision) = &world.scratch.particle_collision else {
         return;
     };
     let (p, labels, mesh) = (&world.particles, &world.scratch.pieces, &world.mesh);
@@ -145,7 +145,7 @@ pub(crate) fn join_touching_pieces(world: &mut World) {
 /// Separates the pairs of particles that are too near, in one pass.
 pub(crate) fn solve(world: &mut World) {
     let unscaled = collision_distance(world);
-    let Some(collision) = &mut world.particle_collision else {
+    let Some(collision) = &mut world.scratch.particle_collision else {
         return;
     };
     let (p, largest) = (&mut world.particles, collision.distance);

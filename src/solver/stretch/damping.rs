@@ -60,13 +60,15 @@ pub(crate) fn remove(world: &mut World) {
 /// links.
 fn damp(links: &mut Links, start: impl Fn(u32) -> Vec3, ratio: f32) {
     let inverse = 1.0 / (1.0 + ratio);
-    for link in 0..links.len() {
-        if !links.active[link] || links.kind(link) == LinkKind::Bend {
+    let Links { a, b, rest, compliance, active, spec, .. } = links;
+    let (rest, compliance) = (&mut **rest, &mut **compliance);
+    for link in 0..spec.len() {
+        if !active[link] || spec[link].kind == LinkKind::Bend {
             continue;
         }
-        let length = (start(links.b[link]) - start(links.a[link])).length();
-        links.rest[link] = (links.rest[link] + length * ratio) * inverse;
-        links.compliance[link] *= inverse;
+        let length = (start(b[link]) - start(a[link])).length();
+        rest[link] = (rest[link] + length * ratio) * inverse;
+        compliance[link] *= inverse;
     }
 }
 

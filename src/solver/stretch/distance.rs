@@ -19,7 +19,7 @@
 //! change the result; the dynamic links of torn edges come after all batches (before them in a
 //! backward sweep).
 
-use crate::model::links::LinkKind;
+use crate::model::links::{LinkKind, SoftLinks};
 use crate::solver::stretch::link_projection::{BOUND, RIGID, SOFT, is_rigid, project_link};
 use crate::solver::stretch::sweep_order::SweepOrder;
 #[cfg(feature = "parallel")]
@@ -30,9 +30,13 @@ use crate::solver::world::World;
 /// Prepares the sweeps of a substep: refreshes the weights of the links' ends and resets λ to 0.
 pub(crate) fn reset(world: &mut World) {
     inverse_masses::refresh(world);
-    if !is_rigid(&world.material, LinkKind::Shear) {
-        world.constraints.links.lambda.fill(0.0);
-        world.constraints.dynamic.lambda.fill(0.0);
+    let is_rigid = is_rigid(&world.material, LinkKind::Shear);
+    let links = [&world.constraints.links, &world.constraints.dynamic];
+    for (lambda, links) in world.scratch.lambda.iter_mut().zip(links) {
+        lambda.resize(links.len());
+        if !is_rigid {
+            lambda.fill(0.0);
+        }
     }
 }
 
@@ -97,30 +101,32 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
     let is_solved = tiling::solve::<LAW>(world, at..at + 1, SweepOrder::Forward, scale);
     #[cfg(not(feature = "parallel"))]
     let is_solved = false;
-    let (constraints, p) = (&mut world.constraints, &mut world.particles);
+    let (constraints, p) = (&world.constraints, &mut world.particles);
+    let (links, lambda) = (&constraints.links, &mut world.scratch.lambda[0][..]);
     let interleaved = &mut world.scratch.interleaved;
     if let Some(grid) = &constraints.rows {
         if !is_solved {
             let ends = &world.scratch.end_weights.ends;
-            let links = &mut constraints.links;
+            let links = (links, &mut *lambda);
             grid_links::solve::<LAW>(world.level, grid, range.clone(), links, ends, p, scale);
         }
         // The irregular links of one batch share no particle, so that the order does not matter.
-        let (links, order) = (&mut constraints.links, SweepOrder::Forward);
+        let order = SweepOrder::Forward;
+        let links = SoftLinks { compliance: &links.compliance, lambda };
         sparse::solve::<LAW, _>(world.level, &grid.sparse, (at, order), links, p, scale);
     } else if interleaved.is_current {
-        let (links, weights) = (&mut constraints.links, &world.scratch.end_weights);
+        let weights = &world.scratch.end_weights;
         mesh_kernel::solve::<LAW>(
             world.level,
             world.threads,
             range,
-            links,
+            (links, lambda),
             weights,
             interleaved,
             scale,
         );
     } else {
-        range.for_each(|link| project_link::<LAW, _>(&mut constraints.links, link, p, scale));
+        range.for_each(|link| project_link::<LAW, _>((links, &mut *lambda), link, p, scale));
     }
 }
 
@@ -128,7 +134,9 @@ fn solve_batch<const LAW: u8>(world: &mut World, at: usize, scale: f32) {
 fn solve_dynamic<const LAW: u8>(world: &mut World, at: usize, order: SweepOrder, scale: f32) {
     let (level, at) = (world.level, (at, order));
     let (p, interleaved) = (&mut world.particles, &mut world.scratch.interleaved);
-    let (sparse_links, links) = (&world.constraints.sparse, &mut world.constraints.dynamic);
+    let sparse_links = &world.constraints.sparse;
+    let compliance = &world.constraints.dynamic.compliance[..];
+    let links = SoftLinks { compliance, lambda: &mut world.scratch.lambda[1] };
     if interleaved.is_current {
         sparse::solve::<LAW, _>(level, sparse_links, at, links, interleaved, scale);
     } else {

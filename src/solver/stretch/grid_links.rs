@@ -39,12 +39,12 @@ pub(crate) fn solve<const LAW: u8>(
     level: Level,
     grid: &GridRows,
     range: Range<usize>,
-    links: &mut Links,
+    (links, lambda): (&Links, &mut [f32]),
     ends: &[Column; 2],
     p: &mut Particles,
     scale: f32,
 ) {
-    let Links { rest, compliance, lambda, .. } = links;
+    let Links { rest, compliance, .. } = links;
     let Columns { x, y, z } = &mut p.x;
     let mut slices = GridSlices {
         first_particle: 0,

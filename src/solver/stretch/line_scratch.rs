@@ -5,7 +5,7 @@
 //! a block without a link use it.
 
 use crate::math::columns::Columns;
-use crate::math::heap_bytes::heap_bytes;
+use crate::math::reserve::ReserveTotal;
 use crate::solver::stretch::line_step::LineStep;
 
 /// Gathered particles, and the steps of the block that is solved.
@@ -22,19 +22,39 @@ pub(crate) struct LineScratch {
     pub steps: Vec<LineStep>,
 }
 
-heap_bytes!(LineScratch { points, start_points, start_columns, steps } plain {});
+/// How long the lists of a cloth are.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LineLengths {
+    steps: usize,
+    points: usize,
+    columns: usize,
+}
 
-impl LineScratch {
-    /// Allocates buffers for blocks of at most `steps` steps over `particles` particles: points if
-    /// blocks may have to be gathered, and columns if they may be strided.
+impl LineLengths {
+    /// The lengths for blocks of at most `steps` steps over `particles` particles: points if blocks
+    /// may have to be gathered, and columns if they may be strided.
     pub fn new(steps: usize, particles: usize, [gathers, has_strided]: [bool; 2]) -> Self {
         let [points, columns] =
             [gathers, has_strided].map(|is_used| if is_used { particles + 1 } else { 0 });
-        Self {
-            points: Vec::with_capacity(points),
-            start_points: Vec::with_capacity(points),
-            start_columns: Columns::with_capacity(columns),
-            steps: vec![LineStep::default(); steps + 1],
-        }
+        Self { steps: steps + 1, points, columns }
+    }
+}
+
+impl LineScratch {
+    /// Removes all entries but the steps: of these, each block overwrites what it reads, and none
+    /// writes the first one.
+    pub fn clear(&mut self) {
+        self.points.clear();
+        self.start_points.clear();
+        self.start_columns.resize(0);
+    }
+
+    /// Allocates lists of these lengths. Steps without an entry become zero.
+    pub fn reserve(&mut self, lengths: LineLengths) {
+        self.points.reserve_total(lengths.points);
+        self.start_points.reserve_total(lengths.points);
+        self.start_columns.reserve(lengths.columns);
+        self.steps.reserve_total(lengths.steps);
+        self.steps.resize(lengths.steps, LineStep::default());
     }
 }

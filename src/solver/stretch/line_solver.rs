@@ -55,7 +55,7 @@
 use crate::math::max;
 use crate::math::simd::{LANES, Level, Scalar};
 use crate::model::chain_blocks;
-use crate::model::links::{LinkKind, Links};
+use crate::model::links::{LinkKind, SoftLinks};
 use crate::solver::stretch::line_gather::LinePoints;
 use crate::solver::stretch::line_scratch::LineScratch;
 use crate::solver::stretch::line_step::LineStep;
@@ -108,7 +108,10 @@ const GATHERS_BLOCK_FIRST: bool = cfg!(target_arch = "wasm32");
 /// Solves blocks whose particles are at arbitrary indices.
 fn solve_blocks(world: &mut World, scale: Option<f32>) {
     let (level, chains) = (world.level, &world.constraints.chains.blocks);
-    let links = &mut world.constraints.links;
+    let links = &mut SoftLinks {
+        compliance: &world.constraints.links.compliance,
+        lambda: &mut world.scratch.lambda[0],
+    };
     let LineScratch { points, start_points, steps: scratch, .. } = &mut world.scratch.lines;
     for block in chains.blocks() {
         let steps = &mut scratch[..=block.len()];
@@ -135,7 +138,8 @@ fn solve_blocks(world: &mut World, scale: Option<f32>) {
 /// Solves blocks whose particles are at a fixed stride in the columns.
 fn solve_strided(world: &mut World, scale: Option<f32>) {
     let (level, scratch, p) = (world.level, &mut world.scratch, &mut world.particles);
-    let (chains, links) = (&world.constraints.chains.blocks, &mut world.constraints.links);
+    let (chains, links) = (&world.constraints.chains.blocks, &world.constraints.links);
+    let links = &mut SoftLinks { compliance: &links.compliance, lambda: &mut scratch.lambda[0] };
     let LineScratch { start_columns: starts, steps, .. } = &mut scratch.lines;
     if scale.is_none() {
         line_strided::compute_starts(level, &scratch.predicted, &scratch.displacement, starts);
@@ -166,7 +170,7 @@ fn solve_gathered(
     level: Level,
     block: &[chain_blocks::ChainStep],
     steps: &mut [LineStep],
-    links: &mut Links,
+    links: &mut SoftLinks<'_>,
     scale: Option<f32>,
 ) {
     let none = LinePoints { points: &[], start_points: &[] };

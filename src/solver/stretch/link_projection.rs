@@ -50,7 +50,7 @@ pub(crate) fn is_rigid(material: &Material, kind: LinkKind) -> bool {
 /// Projects one link of a list, if it is active. For `scale` see [`compute_correction`].
 #[inline(always)]
 pub(crate) fn project_link<const LAW: u8, P: ParticleAccess>(
-    links: &mut Links,
+    (links, lambda): (&Links, &mut [f32]),
     link: usize,
     particles: &mut P,
     scale: f32,
@@ -59,11 +59,10 @@ pub(crate) fn project_link<const LAW: u8, P: ParticleAccess>(
         return;
     }
     let ends = (links.a[link] as usize, links.b[link] as usize);
-    let (compliance, lambda) = (links.compliance[link], links.lambda[link]);
-    let lambda =
-        project_pair::<LAW, _>(ends, links.rest[link], compliance, lambda, particles, scale);
+    let (rest, compliance, old) = (links.rest[link], links.compliance[link], lambda[link]);
+    let new = project_pair::<LAW, _>(ends, rest, compliance, old, particles, scale);
     if LAW == SOFT {
-        links.lambda[link] = lambda;
+        lambda[link] = new;
     }
 }
 

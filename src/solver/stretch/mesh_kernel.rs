@@ -53,7 +53,7 @@ pub(crate) fn solve<const LAW: u8>(
     level: Level,
     threads: Threads,
     range: Range<usize>,
-    links: &mut Links,
+    (links, lambda): (&Links, &mut [f32]),
     weights: &EndWeights,
     particles: &mut InterleavedParticles,
     scale: f32,
@@ -66,7 +66,7 @@ pub(crate) fn solve<const LAW: u8>(
     let joins = ((&links.a[range.clone()], &links.b[range.clone()]), &links.active[range.clone()]);
     let weights = ((&wa[range.clone()], &wb[range.clone()]), &weights.is_even[range.clone()]);
     let lengths = (&links.rest[range.clone()], &links.compliance[range.clone()]);
-    let all = (joins, weights, lengths, &mut links.lambda[range]);
+    let all = (joins, weights, lengths, &mut lambda[range]);
     threads.parallel_for(
         all,
         MIN_LINKS_PER_THREAD,

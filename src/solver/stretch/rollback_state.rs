@@ -4,7 +4,6 @@
 //! Invariant: has capacity for all particles that tears may still make, so that no tick allocates.
 
 use crate::math::columns::Columns;
-use crate::math::heap_bytes::heap_bytes;
 
 /// The rollback position of each particle [m].
 #[derive(Clone, Debug, Default)]
@@ -12,13 +11,4 @@ pub(crate) struct RollbackState {
     pub positions: Columns,
     /// The positions before the rollback [m]; allocated with the first collider.
     pub before: Columns,
-}
-
-heap_bytes!(RollbackState { positions, before } plain {});
-
-impl RollbackState {
-    /// Allocates a buffer for `particles` particles.
-    pub fn with_capacity(particles: usize) -> Self {
-        Self { positions: Columns::with_capacity(particles), before: Columns::default() }
-    }
 }

@@ -187,7 +187,7 @@ fn tear_stitches(world: &mut World) {
     let mut sewing = core::mem::take(&mut world.sewing);
     let step = world.regular_scheme().velocity_step;
     let per_pull = 1.0 / (world.substeps as f32 * step * step);
-    let apart = match (&world.particle_collision, &world.surface_collision) {
+    let apart = match (&world.scratch.particle_collision, &world.scratch.surface_collision) {
         (Some(collision), _) => collision.distance,
         (None, Some(collision)) => PARTED_GAPS * collision.gap(),
         (None, None) => 0.0,
@@ -314,10 +314,10 @@ pub(crate) fn join_sewn_pieces(world: &mut World) {
 impl World {
     /// Makes both kinds of self-collision search all pairs again, after sewn pairs changed.
     pub fn forget_collision_pairs(&mut self) {
-        if let Some(collision) = &mut self.particle_collision {
+        if let Some(collision) = &mut self.scratch.particle_collision {
             collision.invalidate();
         }
-        if let Some(collision) = &mut self.surface_collision {
+        if let Some(collision) = &mut self.scratch.surface_collision {
             collision.invalidate();
         }
     }

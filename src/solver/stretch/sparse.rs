@@ -10,7 +10,7 @@
 //! scalar code; the links of a colour share no particle, so lanes may go in any order.
 
 use crate::math::simd::{LANES, Level, Scalar, Simd, vectored};
-use crate::model::links::Links;
+use crate::model::links::SoftLinks;
 use crate::model::sparse_links::SparseLinks;
 use crate::solver::particle_stage::access::{
     ParticleAccess, ParticleSlices, gather_particles, scatter_positions,
@@ -59,7 +59,7 @@ pub(crate) fn solve<const LAW: u8, P: SparseLayout>(
     level: Level,
     sparse: &SparseLinks,
     (batch, order): (usize, SweepOrder),
-    links: &mut Links,
+    links: SoftLinks<'_>,
     particles: &mut P,
     scale: f32,
 ) {
@@ -75,8 +75,8 @@ pub(crate) fn solve<const LAW: u8, P: SparseLayout>(
         rest: &sparse.rest[own.clone()],
         ends: [&sparse.w[0][ends.clone()], &sparse.w[1][ends]],
         link: &sparse.link[own],
-        compliance: &links.compliance,
-        lambda: &mut links.lambda,
+        compliance: links.compliance,
+        lambda: links.lambda,
     };
     if is_colored && HAS_LANES {
         return particles.solve_simd(level, color, LAW, scale);

@@ -49,7 +49,7 @@ pub(crate) fn solve<const LAW: u8>(
     order: SweepOrder,
     scale: f32,
 ) -> bool {
-    let (constraints, p) = (&mut world.constraints, &mut world.particles);
+    let (constraints, p) = (&world.constraints, &mut world.particles);
     let batches = &constraints.batches[batches];
     let (Some(grid), Some(cells), 1..=MAX_COLORS) =
         (&constraints.rows, &world.grid_cells, batches.len())
@@ -64,7 +64,7 @@ pub(crate) fn solve<const LAW: u8>(
     }
     let mut colors: [ColorRows<'_>; MAX_COLORS] = Default::default();
     let mut lambda: [&mut [f32]; MAX_COLORS] = Default::default();
-    let (mut others, mut before) = (&mut constraints.links.lambda[..], 0);
+    let (mut others, mut before) = (&mut world.scratch.lambda[0][..], 0);
     for (at, batch) in batches.iter().enumerate() {
         let slot = if order == SweepOrder::Forward { at } else { batches.len() - 1 - at };
         let end = batch.first + batch.count;

@@ -29,7 +29,7 @@ use crate::math::TINY;
 use crate::math::simd::{Float, LANES, LaneArray, Scalar, Simd, vectored};
 use crate::mesh::NONE;
 use crate::model::chain_blocks;
-use crate::model::links::Links;
+use crate::model::links::SoftLinks;
 use crate::solver::stretch::line_gather::LinePoints;
 use crate::solver::stretch::line_step::{Lanes3, LineStep};
 
@@ -46,7 +46,7 @@ macro_rules! solving {
                 block: &[chain_blocks::ChainStep],
                 points: LinePoints<'_>,
                 steps: &mut [LineStep],
-                links: &mut Links,
+                links: &mut SoftLinks<'_>,
                 scale: f32,
             ) = solve_lanes::<_, $soft, $gathers>, solve_scalar::<$soft, $gathers>
         }
@@ -63,7 +63,7 @@ fn solve_scalar<const SOFT: bool, const GATHERS: bool>(
     block: &[chain_blocks::ChainStep],
     points: LinePoints<'_>,
     steps: &mut [LineStep],
-    links: &mut Links,
+    links: &mut SoftLinks<'_>,
     scale: f32,
 ) {
     solve_lanes::<_, SOFT, GATHERS>(Scalar, block, points, steps, links, scale);
@@ -79,7 +79,7 @@ fn solve_lanes<S: Simd, const SOFT: bool, const GATHERS: bool>(
     block: &[chain_blocks::ChainStep],
     points: LinePoints<'_>,
     steps: &mut [LineStep],
-    links: &mut Links,
+    links: &mut SoftLinks<'_>,
     scale: f32,
 ) {
     let Some((sentinel, steps)) = steps.split_first_mut() else { return };
@@ -192,7 +192,7 @@ impl<S: Simd> LaneGroup<S> {
         forward: &mut Forward<S::F>,
         last: &LineStep,
         (chain_step, step): (&chain_blocks::ChainStep, &mut LineStep),
-        links: &Links,
+        links: &SoftLinks<'_>,
         scale: f32,
     ) {
         let s = self.s;
@@ -232,7 +232,7 @@ impl<S: Simd> LaneGroup<S> {
 
     /// The α̃ of the links of these lanes; 0 without a link.
     #[inline(always)]
-    fn softness(&self, links: &Links, own: &[u32], scale: f32) -> S::F {
+    fn softness(&self, links: &SoftLinks<'_>, own: &[u32], scale: f32) -> S::F {
         let mut softness = [0.0; LANES];
         for (softness, link) in softness.iter_mut().zip(own) {
             if *link != NONE {
@@ -249,7 +249,7 @@ impl<S: Simd> LaneGroup<S> {
         &self,
         backward: &mut Backward<S::F>,
         (chain_step, step): (&chain_blocks::ChainStep, &mut LineStep),
-        links: &mut Links,
+        links: &mut SoftLinks<'_>,
     ) {
         let s = self.s;
         let (zero, one) = (s.splat(0.0), s.splat(1.0));

@@ -121,7 +121,8 @@ fn split_edge(
     let ends = [a, b].map(|end| world.mesh.source[end as usize]);
     let site = world.rest.len() as u32;
     let crossing = CutSite { ends, fraction: share };
-    world.rest.push(crossing.interpolate(|end| world.rest[end as usize]));
+    let at_crossing = crossing.interpolate(|end| world.rest[end as usize]);
+    world.rest.push(at_crossing);
     world.cut_sites.push(crossing);
     let division = world.mesh.split_edge(edge, site);
     let vertex = match &mut world.seams {
@@ -175,7 +176,7 @@ impl<'a> CutDraft<'a> {
             .map(|x| blade.signed_side(*x) == 0.0 && blade.contains(x.as_dvec3()))
             .collect();
         let rest = world.mesh.source.iter().map(|site| world.rest[*site as usize]).collect();
-        Self { world, mesh: world.mesh.clone(), rest, x, is_on_cut, splits: Vec::new() }
+        Self { world, mesh: Mesh::clone(&world.mesh), rest, x, is_on_cut, splits: Vec::new() }
     }
 
     /// Splits the edges that the blade crosses.

@@ -18,7 +18,7 @@ use crate::solver::world::World;
 /// and intersections do not deepen.
 pub(crate) fn damp_velocities(world: &mut World) {
     let h = world.regular_scheme().h;
-    let Some(mut surface) = world.surface_collision.take() else {
+    let Some(mut surface) = world.scratch.surface_collision.take() else {
         return;
     };
     let SurfaceCollision {
@@ -48,5 +48,5 @@ pub(crate) fn damp_velocities(world: &mut World) {
             interleaved::scatter_relative(&rigid, &p.x, vectors, columns);
         }
     }
-    world.surface_collision = Some(surface);
+    world.scratch.surface_collision = Some(surface);
 }

@@ -9,7 +9,7 @@ use crate::state::events::EventKind;
 
 /// Counts the crossing edges, and reports them by one event.
 pub(crate) fn report(world: &mut World) {
-    let found = world.surface_collision.as_ref().map(|surface| &surface.intersections);
+    let found = world.scratch.surface_collision.as_ref().map(|surface| &surface.intersections);
     let count = found.map_or(0, SurfaceIntersections::len) as u32;
     let first = found.and_then(SurfaceIntersections::first_edge);
     if let (true, Some([a, b])) = (world.violations.crossings.update(count), first) {

@@ -50,7 +50,7 @@ impl World {
     /// Rebuilds the data of surface collision, or drops it, by `settings.self_collision`.
     pub fn rebuild_surface_collision(&mut self) {
         let is_wanted = self.settings.self_collision == SelfCollision::Surface;
-        self.surface_collision = is_wanted.then(|| {
+        self.scratch.surface_collision = is_wanted.then(|| {
             let (count, capacity) = (self.particles.len(), self.capacity());
             Box::new(SurfaceCollision::new(&self.mesh, &self.rest, count, capacity))
         });
@@ -275,7 +275,7 @@ const SUPPORTED_SHARE: f32 = 0.02;
 
 /// Starts a tick, or the part of it after tears, at the current positions.
 pub(crate) fn begin_tick(world: &mut World) {
-    let Some(mut surface) = world.surface_collision.take() else { return };
+    let Some(mut surface) = world.scratch.surface_collision.take() else { return };
     let gap = world.layer_gap();
     surface.tick_bounds.is_valid &= gap == surface.gap;
     surface.gap = gap;
@@ -290,12 +290,12 @@ pub(crate) fn begin_tick(world: &mut World) {
     surface.has_detected = false;
     surface.is_new_tick = true;
     surface.tick_bounds.is_valid &= is_same_count;
-    world.surface_collision = Some(surface);
+    world.scratch.surface_collision = Some(surface);
 }
 
 /// Detects the contacts of a substep, and whether the surface intersects itself.
 pub(crate) fn detect_contacts(world: &mut World) {
-    let Some(mut surface) = world.surface_collision.take() else { return };
+    let Some(mut surface) = world.scratch.surface_collision.take() else { return };
     collide::second_response::store_heights(world);
     interleaved::gather(&mut surface.motion.now, &world.particles.x, &world.particles.w);
     surface.planes.reset(world.particles.len());
@@ -312,7 +312,7 @@ pub(crate) fn detect_contacts(world: &mut World) {
     }
     surface.detect(world, world.substeps);
     world.is_tangled = !surface.intersections.is_empty();
-    world.surface_collision = Some(surface);
+    world.scratch.surface_collision = Some(surface);
 }
 
 /// Solves the contacts of a substep: impulses, friction, penetration, untangling.
@@ -322,7 +322,7 @@ pub(crate) fn solve_contacts(world: &mut World) {
         coefficient: world.material.friction,
         scales: world.maps.get(Map::Friction),
     };
-    let Some(mut surface) = world.surface_collision.take() else { return };
+    let Some(mut surface) = world.scratch.surface_collision.take() else { return };
     let SurfaceCollision {
         contacts, active, warm_start_index, motion, vectors, intersections, ..
     } = &mut *surface;
@@ -357,7 +357,7 @@ pub(crate) fn solve_contacts(world: &mut World) {
     intersections.resolve(motion, predicted);
     interleaved::scatter(&motion.now, &mut world.particles.x);
     let has_contacts = !active.is_empty();
-    world.surface_collision = Some(surface);
+    world.scratch.surface_collision = Some(surface);
     if has_contacts {
         collide::second_response::apply(world);
         gather_positions(world);
@@ -366,7 +366,7 @@ pub(crate) fn solve_contacts(world: &mut World) {
 
 /// Gathers the current positions, which other stages changed.
 fn gather_positions(world: &mut World) {
-    if let Some(surface) = &mut world.surface_collision {
+    if let Some(surface) = &mut world.scratch.surface_collision {
         let p = &world.particles;
         interleaved::gather(&mut surface.motion.now, &p.x, &p.w);
     }
@@ -376,10 +376,10 @@ fn gather_positions(world: &mut World) {
 /// after the last substep, when colliders rest. What it moves ends outside all colliders. Does nothing if a position is invalid: nothing can separate such
 /// positions, and the end of the tick restores them.
 pub(crate) fn enforce_non_crossing(world: &mut World, substep: Option<u32>) {
-    if world.surface_collision.is_none() || !recover::are_positions_valid(world) {
+    if world.scratch.surface_collision.is_none() || !recover::are_positions_valid(world) {
         return;
     }
-    let Some(mut surface) = world.surface_collision.take() else { return };
+    let Some(mut surface) = world.scratch.surface_collision.take() else { return };
     let mut pushed = core::mem::take(&mut world.scratch.contacts.projected);
     pushed.clear();
     if !surface.active.is_empty() {
@@ -407,7 +407,7 @@ pub(crate) fn enforce_non_crossing(world: &mut World, substep: Option<u32>) {
     // The next substep starts here; it gathers `now` anew.
     let SweptParticles { start, now, .. } = &mut surface.motion;
     core::mem::swap(start, now);
-    world.surface_collision = Some(surface);
+    world.scratch.surface_collision = Some(surface);
 }
 
 /// Alternates between colliders and the non-crossing pass until both hold.
@@ -460,7 +460,7 @@ fn support_projected(surface: &mut SurfaceCollision, world: &World, pushed: &[u3
 pub(crate) fn enforce_non_crossing_at_tick_end(world: &mut World) {
     gather_positions(world);
     let anchor_moved = &world.scratch.anchor_moved;
-    if let Some(surface) = &mut world.surface_collision {
+    if let Some(surface) = &mut world.scratch.surface_collision {
         anchor_moved.iter().for_each(|i| surface.motion.now[*i as usize][3] = 0.0);
     }
     enforce_non_crossing(world, None);
@@ -469,12 +469,12 @@ pub(crate) fn enforce_non_crossing_at_tick_end(world: &mut World) {
 /// Separates those of `vertices` that have the same position as another copy after a split.
 /// Momentum is conserved; nearby surfaces are pushed aside.
 pub(crate) fn separate_splits(world: &mut World, vertices: impl Iterator<Item = u32>) {
-    let Some(mut surface) = world.surface_collision.take() else { return };
+    let Some(mut surface) = world.scratch.surface_collision.take() else { return };
     let split = &mut surface.split_separation;
     split.compute(&world.mesh, &world.particles, world.mean_edge, vertices);
     let copies = core::mem::take(&mut split.copies);
     let displacements = core::mem::take(&mut split.displacements);
-    world.surface_collision = Some(surface);
+    world.scratch.surface_collision = Some(surface);
     if displacements.iter().any(|displacement| *displacement != Vec3::ZERO) {
         begin_tick(world);
         collide::begin_last_phase(world);
@@ -485,7 +485,7 @@ pub(crate) fn separate_splits(world: &mut World, vertices: impl Iterator<Item = 
         gather_positions(world);
         enforce_non_crossing(world, None);
     }
-    if let Some(surface) = &mut world.surface_collision {
+    if let Some(surface) = &mut world.scratch.surface_collision {
         let split = &mut surface.split_separation;
         (split.copies, split.displacements) = (copies, displacements);
     }
