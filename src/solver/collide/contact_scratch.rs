@@ -11,7 +11,6 @@ use crate::math::heap_bytes::heap_bytes;
 use crate::math::reserve::ReserveTotal;
 use crate::math::swap::swap;
 use crate::solver::collide::body_motion::BodyMotion;
-use crate::solver::collide::close_pairs::{ClosePair, PushedCorner};
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::inside_count::InsideCount;
 use crate::solver::collide::long_pairs::LongPairs;
@@ -19,6 +18,7 @@ use crate::solver::collide::long_triangles::LongTriangles;
 use crate::solver::collide::nearby_blocks::NearbyBlocks;
 use crate::solver::collide::push_accumulator::PushAccumulator;
 use crate::solver::collide::room::Room;
+use crate::solver::collide::slack::PushedCorner;
 use crate::state::colliders::Impulse;
 use glam::Vec3;
 
@@ -54,8 +54,8 @@ pub(crate) struct ContactScratch {
     /// substep [m].
     pub(super) clearance: Vec<f32>,
     pub(super) pushes: PushAccumulator,
-    /// The candidate pairs that are close in this substep.
-    pub(super) close_pairs: Vec<ClosePair>,
+    /// The slacks of the candidate pairs of one collider [m].
+    pub(super) slacks: Vec<f32>,
     pub(super) long_pairs: LongPairs,
     /// All particles in the rounds of one collider.
     pub(super) corners: Vec<PushedCorner>,
@@ -109,7 +109,7 @@ impl ContactScratch {
         self.late_pushes.reserve_total(bodies);
         self.clearance.reserve_total(particles);
         self.pushes.reserve(particles);
-        self.close_pairs.reserve_total(triangles);
+        self.slacks.reserve_total(5 * bodies.min(4) * triangles);
         self.long_pairs.reserve(triangles);
         self.corners.reserve_total(particles);
         self.contact_slots.reserve_total(particles);
@@ -141,7 +141,7 @@ impl ContactScratch {
         self.late_pushes.clear();
         self.clearance.clear();
         self.pushes.clear();
-        self.close_pairs.clear();
+        self.slacks.clear();
         self.long_pairs.clear();
         self.corners.clear();
         self.contact_slots.clear();
@@ -154,7 +154,7 @@ impl ContactScratch {
 heap_bytes!(
     ContactScratch { nearby, long } plain {
         body_motions, collider_contacts, max_contacts, projections, net_corrections, projected,
-        impulses, arrived, first_pusher, late_pushes, clearance, pushes, close_pairs, long_pairs,
+        impulses, arrived, first_pusher, late_pushes, clearance, pushes, slacks, long_pairs,
         corners, room, contact_slots, is_inside, in_solid_meshes,
     }
 );

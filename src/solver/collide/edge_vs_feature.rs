@@ -20,10 +20,10 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::geometry::features::{EdgeFeature, Features, VertexFeature};
 use crate::geometry::relative_motion::RigidStep;
 use crate::math::{TINY, max, min};
-use crate::solver::collide::close_pairs::{ClosePair, PushedCorners};
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
 use crate::solver::collide::mid_phase::{EdgeEdgePair, VertexTrianglePair};
 use crate::solver::collide::push_accumulator::PushAccumulator;
+use crate::solver::collide::slack::PushedCorners;
 use crate::solver::collide::triangle_vs_round::{BESIDE, TriangleContact, point_crossing};
 use glam::Vec3;
 
@@ -81,18 +81,17 @@ impl FeatureQuery<'_> {
     }
 }
 
-/// Accumulates the pushes of the close pairs out of the shape. Returns the depth of the deepest
+/// Accumulates the pushes of the pairs whose corners have been pushed as far as their slacks. Returns the depth of the deepest
 /// penetration [m], 0 if there was none.
 pub(super) fn push(
     query: &FeatureQuery<'_>,
     particles: &LocalParticles<'_>,
-    (close_pairs, pushed): (&[ClosePair], &PushedCorners<'_>),
+    (slacks, pushed): (&[f32], &PushedCorners<'_>),
     pushes: &mut PushAccumulator,
 ) -> f32 {
     let FeatureQuery { features, edges, vertices, .. } = *query;
     let mut deepest = 0.0;
-    for ClosePair { at, slack } in close_pairs {
-        let at = *at as usize;
+    for (at, slack) in slacks.iter().enumerate() {
         let (contact, step) = match edges.get(at) {
             Some(pair) => {
                 if pushed.are_within(&pair.particles, *slack) {

@@ -21,7 +21,6 @@
 mod any_moved;
 mod body_motion;
 pub(crate) mod broad_phase;
-mod close_pairs;
 pub(crate) mod collider_contact;
 mod collider_solver;
 mod contact_distance;
@@ -44,6 +43,7 @@ pub(crate) mod relative_motion;
 pub(crate) mod response;
 mod room;
 pub(crate) mod second_response;
+mod slack;
 pub(crate) mod solid_meshes;
 mod squeezed;
 mod triangle_rounds;

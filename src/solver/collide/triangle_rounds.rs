@@ -14,7 +14,6 @@ use crate::geometry::collision_shape::CollisionShape;
 use crate::math::max;
 use crate::math::simd::Level;
 use crate::mesh::Mesh;
-use crate::solver::collide::close_pairs::{ClosePair, PushedCorner, PushedCorners};
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::collide::contact_distance::TRIANGLE_GAP;
 use crate::solver::collide::edge_vs_feature::FeatureQuery;
@@ -24,8 +23,9 @@ use crate::solver::collide::long_triangles::{LongTriangles, MeasuredSurface};
 use crate::solver::collide::mid_phase::PairSearch;
 use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
+use crate::solver::collide::slack::{PushedCorner, PushedCorners};
 use crate::solver::collide::{
-    close_pairs, edge_vs_feature, long_pairs, mid_phase, particle_vs_shape, triangle_vs_round,
+    edge_vs_feature, long_pairs, mid_phase, particle_vs_shape, slack, triangle_vs_round,
 };
 use crate::state::colliders::ColliderBody;
 
@@ -33,8 +33,10 @@ use crate::state::colliders::ColliderBody;
 /// penetrates, and the largest number while one is too deep.
 const TRIANGLE_ROUNDS: [u32; 2] = [2, 40];
 
-/// The largest number of times that the pairs of one collider are searched in a substep.
+/// The largest number of times that the rounds of one collider begin anew in a substep, and the pushes,
+/// in gaps, after which they do.
 const MAX_SEARCHES: u32 = 4;
+const MAX_PUSH_GAPS: f32 = 3.0;
 
 /// The largest number of rounds that roll triangles back.
 const MAX_ROLLBACK_ROUNDS: u32 = 100;
@@ -58,7 +60,7 @@ pub(super) struct RoundScratch<'a> {
     pub clearance: &'a mut Vec<f32>,
     pub pushes: &'a mut PushAccumulator,
     pub long_pairs: &'a mut LongPairs,
-    pub close_pairs: &'a mut Vec<ClosePair>,
+    pub slacks: &'a mut Vec<f32>,
     pub corners: &'a mut Vec<PushedCorner>,
 }
 
@@ -119,26 +121,26 @@ fn push_features(
     if features.is_empty() && long_features.is_empty() {
         return 0.0;
     }
-    let close = &mut *scratch.close_pairs;
+    let slacks = &mut *scratch.slacks;
     let mut sum = 0.0;
-    // Rounds that push far may bring other pairs close.
+    // Rounds that push far may need more of them.
     for _ in 0..MAX_SEARCHES {
         let mut corners = PushedCorners::begin(scratch.corners, particles);
-        close_pairs::collect(&features, particles, &corners, close);
-        close_pairs::collect(&long_features, particles, &corners, &mut pairs.close);
+        slack::set_slacks(&features, particles, &corners, slacks);
+        slack::set_slacks(&long_features, particles, &corners, &mut pairs.slacks);
         scratch.pushes.reset(particles.w.len());
         let mut push = |particles: &mut LocalParticles<'_>, pushes: &mut PushAccumulator| {
             corners.measure(pushes.pushed(), particles);
             pushes.reset(particles.w.len());
-            let (sharp, smooth) = ((&close[..], &corners), (&pairs.close[..], &corners));
+            let (sharp, smooth) = ((&slacks[..], &corners), (&pairs.slacks[..], &corners));
             let sharp = edge_vs_feature::push(&features, particles, sharp, pushes);
             let smooth = edge_vs_feature::push(&long_features, particles, smooth, pushes);
             pushes.apply(particles);
             max(sharp, smooth)
         };
-        sum += solve_rounds(shape, particles, neighbours, scratch.pushes, &mut push);
-        corners.measure(scratch.pushes.pushed(), particles);
-        if corners.farthest <= largest_gap * close_pairs::MAX_PUSH_GAPS {
+        let pushed = solve_rounds(shape, particles, neighbours, scratch.pushes, &mut push);
+        sum += pushed;
+        if pushed <= largest_gap * MAX_PUSH_GAPS {
             break;
         }
     }

@@ -1,5 +1,5 @@
-//! Selects from the candidate pairs of cloth and features those that may touch in the rounds of one
-//! search, and says how far the cloth must be pushed before each of them can.
+//! How far the cloth must be pushed in the rounds of one search before a candidate pair of cloth and
+//! feature can touch. Few pairs touch, so that most are not tested.
 //!
 //! ```text
 //! they touch only if    distance now < gap,  or  distance now < way in the substep: one passed the other
@@ -8,7 +8,7 @@
 //! ```
 //! Cloth that is inside a solid may be pushed out from farther away, so it has no slack.
 //!
-//! Reads local particles and candidate pairs; writes close pairs.
+//! Reads local particles and candidate pairs; writes slacks.
 //! Invariant: a pair whose corners have been pushed less than its slack has no contact.
 
 use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
@@ -20,17 +20,9 @@ use crate::solver::collide::local_particles::LocalParticles;
 use crate::solver::collide::triangle_vs_round::BESIDE;
 use glam::Vec3;
 
-/// After pushes of this many gaps the close pairs are searched anew.
-pub(super) const MAX_PUSH_GAPS: f32 = 3.0;
-
-/// A pair that may touch.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ClosePair {
-    /// Its number: edge pairs first, then vertex pairs.
-    pub at: u32,
-    /// Until a corner of the cloth has been pushed this far [m], it has no contact.
-    pub slack: f32,
-}
+/// Cloth rests at the gap. So that rounding does not decide whether it touches, pairs up to this part of
+/// the gap beyond it have no slack.
+const ROUNDING: f32 = 0.1;
 
 /// A particle in the rounds of one search.
 #[derive(Clone, Copy, Debug)]
@@ -44,11 +36,7 @@ pub(super) struct PushedCorner {
 }
 
 /// All particles in the rounds of one search.
-pub(super) struct PushedCorners<'a> {
-    list: &'a mut Vec<PushedCorner>,
-    /// How far any of them has been pushed at most [m].
-    pub farthest: f32,
-}
+pub(super) struct PushedCorners<'a>(&'a mut Vec<PushedCorner>);
 
 impl<'a> PushedCorners<'a> {
     /// Begins a search.
@@ -59,36 +47,35 @@ impl<'a> PushedCorners<'a> {
             let way = position.distance(particles.start_position(i));
             PushedCorner { position, way, pushed: 0.0 }
         }));
-        Self { list: corners, farthest: 0.0 }
+        Self(corners)
     }
 
     /// Measures how far the particles that the last round pushed are from where they began.
     pub fn measure(&mut self, pushed: &[u32], particles: &LocalParticles<'_>) {
         for i in pushed {
-            let corner = &mut self.list[*i as usize];
+            let corner = &mut self.0[*i as usize];
             corner.pushed = particles.end_position(*i as usize).distance(corner.position);
-            self.farthest = max(self.farthest, corner.pushed);
         }
     }
 
     /// Returns whether none of some particles has been pushed as far as `slack` [m].
     #[inline(always)]
     pub fn are_within(&self, particles: &[u32], slack: f32) -> bool {
-        particles.iter().all(|i| self.list[*i as usize].pushed < slack)
+        particles.iter().all(|i| self.0[*i as usize].pushed < slack)
     }
 }
 
-/// Collects the close pairs of a query.
-pub(super) fn collect(
+/// Sets the slack of each pair of a query [m]: edge pairs first, then vertex pairs.
+pub(super) fn set_slacks(
     query: &FeatureQuery<'_>,
     particles: &LocalParticles<'_>,
     corners: &PushedCorners<'_>,
-    close_pairs: &mut Vec<ClosePair>,
+    slacks: &mut Vec<f32>,
 ) {
     let FeatureQuery { features, edges, vertices, .. } = *query;
     let search = Search { gap: query.gap * query.largest_scale, particles, corners };
-    close_pairs.clear();
-    for (at, pair) in (0..).zip(edges) {
+    slacks.clear();
+    slacks.extend(edges.iter().map(|pair| {
         let edge = &features.edges[pair.edge as usize];
         let ends = pair.particles.map(|i| search.position(i) - edge.ends[0]);
         let along = edge.ends[1] - edge.ends[0];
@@ -99,9 +86,9 @@ pub(super) fn collect(
             if edge.sides == FeatureSides::Solid && is_inside() { 0.0 } else { between.length() };
         let step = features.edge_step(pair.edge);
         let moved = (step, longest_way(step, &ends, along));
-        close_pairs.extend(search.close_pair(at, distance, &pair.particles, moved));
-    }
-    for (at, pair) in (edges.len() as u32..).zip(vertices) {
+        search.slack(distance, &pair.particles, moved)
+    }));
+    slacks.extend(vertices.iter().map(|pair| {
         let vertex = &features.vertices[pair.vertex as usize];
         let [a, b, c] = pair.particles.map(|i| search.position(i) - vertex.position);
         let between = interpolate([a, b, c], triangle_to_origin([a, b, c]));
@@ -114,8 +101,8 @@ pub(super) fn collect(
         };
         let step = features.vertex_step(pair.vertex);
         let moved = (step, longest_way(step, &[a, b, c], Vec3::ZERO));
-        close_pairs.extend(search.close_pair(at, distance, &pair.particles, moved));
-    }
+        search.slack(distance, &pair.particles, moved)
+    }));
 }
 
 /// Returns an upper bound of how far a feature carries corners of the cloth, given relative to one end of
@@ -138,28 +125,27 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn position(&self, i: u32) -> Vec3 {
-        self.corners.list[i as usize].position
+        self.corners.0[i as usize].position
     }
 
-    /// Returns the pair with this number if it may touch, from its distance [m], the particles of the
-    /// cloth, and the motion of the feature with a bound of how far that carries them [m].
+    /// Returns the slack of a pair from its distance [m], the particles of the cloth, and the motion of
+    /// the feature with a bound of how far that carries them [m].
     #[inline(always)]
-    fn close_pair(
+    fn slack(
         &self,
-        at: u32,
         distance: f32,
         particles: &[u32],
         (step, carried): (Option<&RigidStep>, f32),
-    ) -> Option<ClosePair> {
-        let slack = |way: f32| min(distance - self.gap, (distance - way) * 0.5);
-        let is_far = |slack: f32| slack > self.gap * MAX_PUSH_GAPS;
-        let own = particles.iter().map(|i| self.corners.list[*i as usize].way).fold(0.0, max);
-        // A bound of the way relative to the feature is enough where it is small.
-        let mut least = slack(own + carried);
-        if least <= 0.0 && step.is_some() && distance > self.gap {
-            least = slack(self.relative_way(particles, step));
+    ) -> f32 {
+        let least = self.gap * (1.0 + ROUNDING);
+        let slack = |way: f32| min(distance - least, (distance - way) * 0.5);
+        let own = particles.iter().map(|i| self.corners.0[*i as usize].way).fold(0.0, max);
+        let bound = slack(own + carried);
+        if bound > 0.0 || step.is_none() || distance <= least {
+            return bound;
         }
-        (!is_far(least)).then_some(ClosePair { at, slack: least })
+        // The bound is not enough where cloth and feature move along with each other.
+        slack(self.relative_way(particles, step))
     }
 
     /// Returns the longest way of the particles in the substep, relative to a feature that carries them
