@@ -17,8 +17,8 @@ use crate::solver::collide::long_pairs::LongPairs;
 use crate::solver::collide::long_triangles::LongTriangles;
 use crate::solver::collide::nearby_blocks::NearbyBlocks;
 use crate::solver::collide::push_accumulator::PushAccumulator;
+use crate::solver::collide::pushed_corners::PushedCorner;
 use crate::solver::collide::room::Room;
-use crate::solver::collide::slack::PushedCorner;
 use crate::state::colliders::Impulse;
 use glam::Vec3;
 

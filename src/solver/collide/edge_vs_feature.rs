@@ -23,7 +23,7 @@ use crate::math::{TINY, max, min};
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
 use crate::solver::collide::mid_phase::{EdgeEdgePair, VertexTrianglePair};
 use crate::solver::collide::push_accumulator::PushAccumulator;
-use crate::solver::collide::slack::PushedCorners;
+use crate::solver::collide::pushed_corners::PushedCorners;
 use crate::solver::collide::triangle_vs_round::{BESIDE, TriangleContact, point_crossing};
 use glam::Vec3;
 

@@ -39,6 +39,7 @@ mod particle_motions;
 mod particle_vs_shape;
 mod projection;
 mod push_accumulator;
+mod pushed_corners;
 pub(crate) mod relative_motion;
 pub(crate) mod response;
 mod room;

@@ -8,7 +8,7 @@
 //! ```
 //! Cloth that is inside a solid may be pushed out from farther away, so it has no slack.
 //!
-//! Reads local particles and candidate pairs; writes slacks.
+//! Reads local particles, pushed corners and candidate pairs; writes slacks.
 //! Invariant: a pair whose corners have been pushed less than its slack has no contact.
 
 use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
@@ -17,53 +17,13 @@ use crate::geometry::relative_motion::RigidStep;
 use crate::math::{max, min};
 use crate::solver::collide::edge_vs_feature::{FeatureQuery, start_position};
 use crate::solver::collide::local_particles::LocalParticles;
+use crate::solver::collide::pushed_corners::PushedCorners;
 use crate::solver::collide::triangle_vs_round::BESIDE;
 use glam::Vec3;
 
 /// Cloth rests at the gap. So that rounding does not decide whether it touches, pairs up to this part of
 /// the gap beyond it have no slack.
 const ROUNDING: f32 = 0.1;
-
-/// A particle in the rounds of one search.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PushedCorner {
-    /// Its local position at the beginning [m].
-    position: Vec3,
-    /// How far it came in the substep until then, in the frame of the collider [m].
-    way: f32,
-    /// How far it has been pushed since [m].
-    pushed: f32,
-}
-
-/// All particles in the rounds of one search.
-pub(super) struct PushedCorners<'a>(&'a mut Vec<PushedCorner>);
-
-impl<'a> PushedCorners<'a> {
-    /// Begins a search.
-    pub fn begin(corners: &'a mut Vec<PushedCorner>, particles: &LocalParticles<'_>) -> Self {
-        corners.clear();
-        corners.extend((0..particles.w.len()).map(|i| {
-            let position = particles.end_position(i);
-            let way = position.distance(particles.start_position(i));
-            PushedCorner { position, way, pushed: 0.0 }
-        }));
-        Self(corners)
-    }
-
-    /// Measures how far the particles that the last round pushed are from where they began.
-    pub fn measure(&mut self, pushed: &[u32], particles: &LocalParticles<'_>) {
-        for i in pushed {
-            let corner = &mut self.0[*i as usize];
-            corner.pushed = particles.end_position(*i as usize).distance(corner.position);
-        }
-    }
-
-    /// Returns whether none of some particles has been pushed as far as `slack` [m].
-    #[inline(always)]
-    pub fn are_within(&self, particles: &[u32], slack: f32) -> bool {
-        particles.iter().all(|i| self.0[*i as usize].pushed < slack)
-    }
-}
 
 /// Sets the slack of each pair of a query [m]: edge pairs first, then vertex pairs.
 pub(super) fn set_slacks(
@@ -125,7 +85,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn position(&self, i: u32) -> Vec3 {
-        self.corners.0[i as usize].position
+        self.corners.position(i)
     }
 
     /// Returns the slack of a pair from its distance [m], the particles of the cloth, and the motion of
@@ -139,7 +99,7 @@ impl Search<'_> {
     ) -> f32 {
         let least = self.gap * (1.0 + ROUNDING);
         let slack = |way: f32| min(distance - least, (distance - way) * 0.5);
-        let own = particles.iter().map(|i| self.corners.0[*i as usize].way).fold(0.0, max);
+        let own = self.corners.longest_way(particles);
         let bound = slack(own + carried);
         if bound > 0.0 || step.is_none() || distance <= least {
             return bound;

@@ -23,7 +23,7 @@ use crate::solver::collide::long_triangles::{LongTriangles, MeasuredSurface};
 use crate::solver::collide::mid_phase::PairSearch;
 use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
-use crate::solver::collide::slack::{PushedCorner, PushedCorners};
+use crate::solver::collide::pushed_corners::{PushedCorner, PushedCorners};
 use crate::solver::collide::{
     edge_vs_feature, long_pairs, mid_phase, particle_vs_shape, slack, triangle_vs_round,
 };
