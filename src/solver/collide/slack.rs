@@ -45,7 +45,7 @@ pub(super) fn set_slacks(
         let distance =
             if edge.sides == FeatureSides::Solid && is_inside() { 0.0 } else { between.length() };
         let step = features.edge_step(pair.edge);
-        let moved = (step, longest_way(step, &ends, along));
+        let moved = (step, search.longest_carry(step, (&pair.particles, &ends), along));
         search.slack(distance, &pair.particles, moved)
     }));
     slacks.extend(vertices.iter().map(|pair| {
@@ -60,19 +60,10 @@ pub(super) fn set_slacks(
             between.length() - BESIDE * (b - a).cross(c - a).length().sqrt()
         };
         let step = features.vertex_step(pair.vertex);
-        let moved = (step, longest_way(step, &[a, b, c], Vec3::ZERO));
+        let corners = (&pair.particles[..], &[a, b, c][..]);
+        let moved = (step, search.longest_carry(step, corners, Vec3::ZERO));
         search.slack(distance, &pair.particles, moved)
     }));
-}
-
-/// Returns an upper bound of how far a feature carries corners of the cloth, given relative to one end of
-/// it; `along` leads to its other end [m].
-#[inline(always)]
-fn longest_way(step: Option<&RigidStep>, corners: &[Vec3], along: Vec3) -> f32 {
-    step.map_or(0.0, |step| {
-        let reach = || corners.iter().map(|x| x.length()).fold(0.0, max) + along.length();
-        step.longest_way(reach)
-    })
 }
 
 /// What the pairs of a query share.
@@ -86,6 +77,21 @@ struct Search<'a> {
 impl Search<'_> {
     fn position(&self, i: u32) -> Vec3 {
         self.corners.position(i)
+    }
+
+    /// Returns an upper bound of how far a feature carries corners of the cloth, given by their particles
+    /// and relative to one end of the feature; `along` leads to its other end [m].
+    #[inline(always)]
+    fn longest_carry(
+        &self,
+        step: Option<&RigidStep>,
+        (particles, corners): (&[u32], &[Vec3]),
+        along: Vec3,
+    ) -> f32 {
+        step.map_or(0.0, |step| {
+            let farthest = || corners.iter().map(|x| x.length()).fold(0.0, max);
+            step.longest_way(|| farthest() + along.length() + self.corners.longest_way(particles))
+        })
     }
 
     /// Returns the slack of a pair from its distance [m], the particles of the cloth, and the motion of
