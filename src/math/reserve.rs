@@ -19,7 +19,7 @@ impl<T> ReserveTotal for Vec<T> {
     }
 }
 
-/// Returns a list of zeros, made by one function for the same reason.
+/// Returns a list of `count` zeros. One function for all callers keeps the WebAssembly module small.
 #[inline(never)]
 pub(crate) fn zeros(count: usize) -> Vec<f32> {
     vec![0.0; count]

@@ -137,6 +137,7 @@ pub(crate) struct ScratchOwner {
 }
 
 impl Default for ScratchOwner {
+    /// Returns an identity that no other cloth has.
     fn default() -> Self {
         static NEXT: AtomicUsize = AtomicUsize::new(0);
         Self { id: NEXT.fetch_add(1, Ordering::Relaxed), lengths: [0; 2] }
