@@ -94,6 +94,19 @@ impl RigidStep {
         Self { origins, axes: axes.map(|(before, after)| [before, after]) }
     }
 
+    /// Returns an upper bound of the way of points that start up to `distance` from where the moving point
+    /// ends [m].
+    #[inline(always)]
+    pub fn longest_way(&self, distance: impl FnOnce() -> f32) -> f32 {
+        let [from, to] = self.origins;
+        let shift = from.distance(to);
+        let turned = self.axes.map_or(0.0, |[before, after]| {
+            let turn2: f32 = (0..3).map(|k| (after[k] - before[k]).length_squared()).sum();
+            turn2.sqrt() * (distance() + shift)
+        });
+        shift + turned
+    }
+
     /// Returns where the motion takes a point [m].
     #[inline(never)]
     pub fn carry(&self, x: Vec3) -> Vec3 {

@@ -132,8 +132,8 @@ fn run_pass(
         clearance: &mut contacts.clearance,
         pushes: &mut contacts.pushes,
         long_pairs: &mut contacts.long_pairs,
-        close_pairs: &mut contacts.close_pairs,
-        local_positions: &mut contacts.local_positions,
+        slacks: &mut contacts.slacks,
+        corners: &mut contacts.corners,
     };
     for (at, body) in world.colliders.iter_mut().enumerate() {
         let neighbours = contacts.nearby.of_collider(at);

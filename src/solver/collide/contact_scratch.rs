@@ -17,6 +17,7 @@ use crate::solver::collide::long_pairs::LongPairs;
 use crate::solver::collide::long_triangles::LongTriangles;
 use crate::solver::collide::nearby_blocks::NearbyBlocks;
 use crate::solver::collide::push_accumulator::PushAccumulator;
+use crate::solver::collide::pushed_corners::PushedCorner;
 use crate::solver::collide::room::Room;
 use crate::state::colliders::Impulse;
 use glam::Vec3;
@@ -53,11 +54,11 @@ pub(crate) struct ContactScratch {
     /// substep [m].
     pub(super) clearance: Vec<f32>,
     pub(super) pushes: PushAccumulator,
-    /// The candidate pairs that are close in this substep.
-    pub(super) close_pairs: Vec<u32>,
+    /// The slacks of the candidate pairs of one collider [m].
+    pub(super) slacks: Vec<f32>,
     pub(super) long_pairs: LongPairs,
-    /// The positions of all particles in the local frame of one collider [m].
-    pub(super) local_positions: Vec<Vec3>,
+    /// All particles in the rounds of one collider.
+    pub(super) corners: Vec<PushedCorner>,
     pub(super) room: Room,
     /// For each particle the index of its last contact in `collider_contacts`.
     pub(super) contact_slots: Vec<u32>,
@@ -108,9 +109,9 @@ impl ContactScratch {
         self.late_pushes.reserve_total(bodies);
         self.clearance.reserve_total(particles);
         self.pushes.reserve(particles);
-        self.close_pairs.reserve_total(triangles);
+        self.slacks.reserve_total(5 * bodies.min(4) * triangles);
         self.long_pairs.reserve(triangles);
-        self.local_positions.reserve_total(particles);
+        self.corners.reserve_total(particles);
         self.contact_slots.reserve_total(particles);
         self.contact_slots.resize(particles, 0);
         self.room.reserve(particles);
@@ -140,9 +141,9 @@ impl ContactScratch {
         self.late_pushes.clear();
         self.clearance.clear();
         self.pushes.clear();
-        self.close_pairs.clear();
+        self.slacks.clear();
         self.long_pairs.clear();
-        self.local_positions.clear();
+        self.corners.clear();
         self.contact_slots.clear();
         self.room.clear();
         self.is_inside.clear();
@@ -153,7 +154,7 @@ impl ContactScratch {
 heap_bytes!(
     ContactScratch { nearby, long } plain {
         body_motions, collider_contacts, max_contacts, projections, net_corrections, projected,
-        impulses, arrived, first_pusher, late_pushes, clearance, pushes, close_pairs, long_pairs,
-        local_positions, room, contact_slots, is_inside, in_solid_meshes,
+        impulses, arrived, first_pusher, late_pushes, clearance, pushes, slacks, long_pairs,
+        corners, room, contact_slots, is_inside, in_solid_meshes,
     }
 );

@@ -23,7 +23,8 @@ use crate::math::{TINY, max, min};
 use crate::solver::collide::local_particles::{LocalParticles, Penetration};
 use crate::solver::collide::mid_phase::{EdgeEdgePair, VertexTrianglePair};
 use crate::solver::collide::push_accumulator::PushAccumulator;
-use crate::solver::collide::triangle_vs_round::{TriangleContact, point_crossing};
+use crate::solver::collide::pushed_corners::PushedCorners;
+use crate::solver::collide::triangle_vs_round::{BESIDE, TriangleContact, point_crossing};
 use glam::Vec3;
 
 /// How far a normal may lie outside a normal cone (a sine): tolerates rounding. With a larger value
@@ -48,8 +49,9 @@ const FOLD_COSINE: f32 = 0.2;
 /// whole gap it would not come to rest.
 const PASSED_GAP: f32 = 0.5;
 
-/// Pairs that are farther apart than this many gaps before the first round are not tested.
-pub(super) const CLOSE_GAPS: f32 = 4.0;
+/// A vertex of a rigid shape up to this part of an edge beside a triangle counts as on it. A larger part
+/// would also push the triangle beside the one on whose other side the vertex is.
+const BESIDE_RIGID: f32 = 3.0e-4;
 
 /// The data that all pairs of one collider share in a substep.
 #[derive(Clone, Copy)]
@@ -79,62 +81,30 @@ impl FeatureQuery<'_> {
     }
 }
 
-/// Collects the indices of the pairs that are close enough to touch in this substep: edge pairs
-/// first, then vertex pairs, numbered after all edge pairs. `local_positions` are those
-/// of all particles now.
-pub(super) fn collect_close_pairs(
-    query: &FeatureQuery<'_>,
-    local_positions: &[Vec3],
-    close_pairs: &mut Vec<u32>,
-) {
-    let FeatureQuery { features, edges, vertices, .. } = *query;
-    close_pairs.clear();
-    let distance = query.gap * query.largest_scale * CLOSE_GAPS;
-    // Height and normal both have the length of the unnormalised normal as a factor; NaN counts as
-    // close.
-    let is_close = |height: f32, normal: Vec3| {
-        !(height > 0.0 && height * height > distance * distance * normal.length_squared())
-    };
-    for (at, pair) in edges.iter().enumerate() {
-        let edge = &features.edges[pair.edge as usize];
-        let [a, b] = pair.particles.map(|i| local_positions[i as usize] - edge.ends[0]);
-        let normal = (edge.ends[1] - edge.ends[0]).cross(b - a);
-        let height = normal.dot(a) * 1.0_f32.copysign(normal.dot(edge.outward));
-        // The outward side of a boundary depends on where the cloth is.
-        if edge.sides.is_boundary() || is_close(height, normal) {
-            close_pairs.push(at as u32);
-        }
-    }
-    for (at, pair) in vertices.iter().enumerate() {
-        let vertex = &features.vertices[pair.vertex as usize];
-        let [a, b, c] = pair.particles.map(|i| local_positions[i as usize] - vertex.position);
-        let normal = (b - a).cross(c - a);
-        let height = normal.dot(a) * 1.0_f32.copysign(normal.dot(vertex.outward));
-        if vertex.sides.is_boundary() || is_close(height, normal) {
-            close_pairs.push((edges.len() + at) as u32);
-        }
-    }
-}
-
-/// Accumulates the pushes of the close pairs out of the shape. Returns the depth of the deepest
-/// penetration [m], 0 if there was none.
+/// Accumulates the pushes of the pairs whose corners have been pushed as far as their slacks. Returns the
+/// depth of the deepest penetration [m], 0 if there was none.
 pub(super) fn push(
     query: &FeatureQuery<'_>,
     particles: &LocalParticles<'_>,
-    close_pairs: &[u32],
+    (slacks, pushed): (&[f32], &PushedCorners<'_>),
     pushes: &mut PushAccumulator,
 ) -> f32 {
     let FeatureQuery { features, edges, vertices, .. } = *query;
     let mut deepest = 0.0;
-    for at in close_pairs {
-        let at = *at as usize;
+    for (at, slack) in slacks.iter().enumerate() {
         let (contact, step) = match edges.get(at) {
             Some(pair) => {
+                if pushed.are_within(&pair.particles, *slack) {
+                    continue;
+                }
                 let step = features.edge_step(pair.edge);
                 (edge_contact(query, features, particles, (pair, step)), step)
             }
             None => {
                 let pair = &vertices[at - edges.len()];
+                if pushed.are_within(&pair.particles, *slack) {
+                    continue;
+                }
                 let step = features.vertex_step(pair.vertex);
                 (vertex_contact(query, features, particles, (pair, step)), step)
             }
@@ -160,7 +130,11 @@ pub(super) fn push(
 /// Returns the position of a particle at the start of the substep, as a feature that moved since
 /// carries it along [m].
 #[inline(always)]
-fn start_position(particles: &LocalParticles<'_>, i: usize, step: Option<&RigidStep>) -> Vec3 {
+pub(super) fn start_position(
+    particles: &LocalParticles<'_>,
+    i: usize,
+    step: Option<&RigidStep>,
+) -> Vec3 {
     let start = particles.start_position(i);
     step.map_or(start, |step| step.carry(start))
 }
@@ -316,12 +290,13 @@ fn edge_passage(
 fn vertex_passage(
     vertex: &VertexFeature,
     (corners, start, end): ([usize; 3], [Vec3; 3], [Vec3; 3]),
-    gap: f32,
+    (gap, is_rigid): (f32, bool),
 ) -> Option<([usize; 3], TriangleContact)> {
     if !vertex.sides.is_two_sided() {
         return None;
     }
-    let (weights, back, depth) = point_crossing(vertex.position, start, end)?;
+    let beside = if is_rigid { BESIDE_RIGID } else { BESIDE };
+    let (weights, back, depth) = point_crossing(vertex.position, start, end, beside)?;
     let penetration = Penetration::new(back, gap * PASSED_GAP + depth);
     Some((corners, TriangleContact { weights, penetration }))
 }
@@ -350,7 +325,7 @@ fn vertex_contact(
     let end = corners.map(|i| particles.end_position(i));
     let start = corners.map(|i| start_position(particles, i, step));
     let gap = query.gap * particles.contact_scales.thickness(&corners);
-    let passed = || vertex_passage(vertex, (corners, start, end), gap);
+    let passed = || vertex_passage(vertex, (corners, start, end), (gap, step.is_none()));
     let Some((normal, height)) = vertex_normal(features, vertex, end, start) else {
         return passed();
     };
@@ -380,7 +355,7 @@ fn vertex_contact(
         let penetration = depenetration.penetration(normal, gap, start_height, height)?;
         TriangleContact { weights, penetration }
     } else {
-        let (weights, back, _) = point_crossing(vertex.position, start, end)?;
+        let (weights, back, _) = point_crossing(vertex.position, start, end, BESIDE)?;
         if back.dot(normal) <= 0.0 {
             return None;
         }

@@ -21,8 +21,8 @@ use crate::solver::collide::mid_phase::{EdgeEdgePair, PairSearch, VertexTriangle
 pub(super) struct LongPairs {
     pub edges: Vec<EdgeEdgePair>,
     pub vertices: Vec<VertexTrianglePair>,
-    /// The pairs that are close.
-    pub close: Vec<u32>,
+    /// The slack of each pair [m].
+    pub slacks: Vec<f32>,
 }
 
 impl LongPairs {
@@ -30,7 +30,7 @@ impl LongPairs {
     pub fn reserve(&mut self, triangles: usize) {
         self.edges.reserve_total(4 * triangles);
         self.vertices.reserve_total(triangles);
-        self.close.reserve_total(triangles);
+        self.slacks.reserve_total(5 * triangles);
     }
 
     pub fn clear(&mut self) {

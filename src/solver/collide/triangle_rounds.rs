@@ -23,17 +23,17 @@ use crate::solver::collide::long_triangles::{LongTriangles, MeasuredSurface};
 use crate::solver::collide::mid_phase::PairSearch;
 use crate::solver::collide::nearby_blocks::Neighbours;
 use crate::solver::collide::push_accumulator::PushAccumulator;
+use crate::solver::collide::pushed_corners::{PushedCorner, PushedCorners};
 use crate::solver::collide::{
-    edge_vs_feature, long_pairs, mid_phase, particle_vs_shape, triangle_vs_round,
+    edge_vs_feature, long_pairs, mid_phase, particle_vs_shape, slack, triangle_vs_round,
 };
 use crate::state::colliders::ColliderBody;
-use glam::Vec3;
 
 /// Rounds per substep that push triangles out of a shape: the smallest number while any triangle
 /// penetrates, and the largest number while one is too deep.
 const TRIANGLE_ROUNDS: [u32; 2] = [2, 40];
 
-/// The largest number of times that the pairs of one collider are searched in a substep.
+/// The largest number of times that the slacks of one collider are computed in a substep.
 const MAX_SEARCHES: u32 = 4;
 
 /// The largest number of rounds that roll triangles back.
@@ -58,8 +58,8 @@ pub(super) struct RoundScratch<'a> {
     pub clearance: &'a mut Vec<f32>,
     pub pushes: &'a mut PushAccumulator,
     pub long_pairs: &'a mut LongPairs,
-    pub close_pairs: &'a mut Vec<u32>,
-    pub local_positions: &'a mut Vec<Vec3>,
+    pub slacks: &'a mut Vec<f32>,
+    pub corners: &'a mut Vec<PushedCorner>,
 }
 
 /// Pushes the triangles near a collider out of it. `part` is the end and the length of the way of a
@@ -119,24 +119,26 @@ fn push_features(
     if features.is_empty() && long_features.is_empty() {
         return 0.0;
     }
-    let (positions, close_pairs) = (&mut *scratch.local_positions, &mut *scratch.close_pairs);
+    let slacks = &mut *scratch.slacks;
     let mut sum = 0.0;
     // Rounds that push far may bring other pairs close.
     for _ in 0..MAX_SEARCHES {
-        positions.clear();
-        positions.extend((0..particles.w.len()).map(|i| particles.end_position(i)));
-        edge_vs_feature::collect_close_pairs(&features, positions, close_pairs);
-        edge_vs_feature::collect_close_pairs(&long_features, positions, &mut pairs.close);
+        let mut corners = PushedCorners::begin(scratch.corners, particles);
+        slack::set_slacks(&features, particles, &corners, slacks);
+        slack::set_slacks(&long_features, particles, &corners, &mut pairs.slacks);
+        scratch.pushes.reset(particles.w.len());
         let mut push = |particles: &mut LocalParticles<'_>, pushes: &mut PushAccumulator| {
+            corners.measure(pushes.pushed(), particles);
             pushes.reset(particles.w.len());
-            let sharp = edge_vs_feature::push(&features, particles, close_pairs, pushes);
-            let smooth = edge_vs_feature::push(&long_features, particles, &pairs.close, pushes);
+            let (sharp, smooth) = ((&slacks[..], &corners), (&pairs.slacks[..], &corners));
+            let sharp = edge_vs_feature::push(&features, particles, sharp, pushes);
+            let smooth = edge_vs_feature::push(&long_features, particles, smooth, pushes);
             pushes.apply(particles);
             max(sharp, smooth)
         };
         let pushed = solve_rounds(shape, particles, neighbours, scratch.pushes, &mut push);
         sum += pushed;
-        if pushed <= largest_gap * (edge_vs_feature::CLOSE_GAPS - 1.0) {
+        if pushed <= largest_gap * (slack::CLOSE_GAPS - 1.0) {
             break;
         }
     }
@@ -184,7 +186,7 @@ pub(super) fn mark_pushed_by_others(
     mesh: &Mesh,
     scratch: &mut RoundScratch<'_>,
 ) -> bool {
-    if neighbours.longest_free_edge == f32::INFINITY {
+    if shape.bends().is_none() && neighbours.longest_free_edge == f32::INFINITY {
         return false;
     }
     let others = particles.contacts.iter().filter(|contact| contact.body != particles.body);

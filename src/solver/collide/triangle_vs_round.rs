@@ -39,6 +39,9 @@ const REACH: f32 = 0.58;
 /// Bisections of the substep that find when a triangle passed a point.
 const BISECTIONS: u32 = 20;
 
+/// A point up to this part of an edge beside a triangle counts as on it.
+pub(super) const BESIDE: f32 = 1.0e-2;
+
 /// A contact at a point of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TriangleContact {
@@ -176,7 +179,8 @@ fn round_contact(
         return None;
     }
     let crossings = ends.into_iter().filter_map(|sphere| {
-        let (weights, out, beyond) = point_crossing(sphere.center, motion.start, motion.end)?;
+        let (weights, out, beyond) =
+            point_crossing(sphere.center, motion.start, motion.end, BESIDE)?;
         let penetration = Penetration::new(out, sphere.radius + gap + beyond);
         Some(TriangleContact { weights, penetration })
     });
@@ -230,11 +234,12 @@ fn normal_and_area2([a, b, c]: [Vec3; 3]) -> Option<(Vec3, f32)> {
 
 /// Returns whether a moving triangle passed a point in this substep: the barycentric weights of the
 /// point, the normal back to the side of the start, and how far the triangle is beyond the point
-/// now [m].
+/// now [m]. A point up to the part `beside` of an edge beside the triangle counts as on it.
 pub(super) fn point_crossing(
     point: Vec3,
     start: [Vec3; 3],
     end: [Vec3; 3],
+    beside: f32,
 ) -> Option<([f32; 3], Vec3, f32)> {
     let (start, end) = (start.map(|x| x - point), end.map(|x| x - point));
     let (start_normal, _) = normal_and_area2(start)?;
@@ -254,8 +259,7 @@ pub(super) fn point_crossing(
     }
     let crossing = at(to);
     let weights = triangle_to_origin(crossing);
-    // A point up to a hundredth of an edge beside the triangle counts as on it.
-    if interpolate(crossing, weights).length_squared() > 1.0e-4 * area2 {
+    if interpolate(crossing, weights).length_squared() > beside * beside * area2 {
         return None;
     }
     let back = if start_side > 0.0 { end_normal } else { -end_normal };
