@@ -4,8 +4,9 @@
 //! The one that was solved last used to take all of its distance, and pushed the cloth into the other.
 
 use crate::common::shapes::{octahedron, signed_distance, sphere_mesh};
+use crate::common::triangles;
 use muslin::glam::{Quat, Vec3};
-use muslin::{Cloth, ColliderDesc, GridDesc, SelfCollision, Shape};
+use muslin::{Cloth, ColliderDesc, GridDesc, PinMode, SelfCollision, Shape};
 use std::f32::consts::FRAC_PI_2;
 
 /// The distance that the cloth keeps from each body [m].
@@ -133,5 +134,60 @@ fn cloth_on_which_two_round_bodies_close_comes_out_along_their_crease() {
                 }
             }
         }
+    }
+}
+
+/// Presses a sheet, which starts `height` above the middle of a box, onto that box with four capsules,
+/// two of them above edges of its top, and lifts it.
+fn press_above_edges(height: f32) {
+    const RADIUS: f32 = 0.015;
+    let mut desc = GridDesc { columns: 30, rows: 30, spacing: 0.5 / 29.0, ..GridDesc::default() };
+    desc.pin_mode = PinMode::None;
+    desc.down = Vec3::Z;
+    desc.origin = Vec3::new(-0.25, height, -0.25);
+    desc.settings.self_collision = SelfCollision::Surface;
+    let mut cloth = Cloth::grid(&desc).unwrap();
+    let at = |tick: u32| {
+        let share = (tick as f32 / 60.0).min(1.0);
+        let lift = 0.3 * (tick.saturating_sub(60) as f32 / 60.0).min(1.0);
+        let cuboid = ColliderDesc {
+            shape: Shape::Box,
+            half_extents: Vec3::new(0.06, 0.02, 0.06),
+            position: Vec3::Y * lift,
+            ..ColliderDesc::default()
+        };
+        let [a, b, c, d] = [-0.054, -0.018, 0.018, 0.054].map(|x| ColliderDesc {
+            shape: Shape::Capsule,
+            radius: RADIUS,
+            top_radius: RADIUS,
+            half_height: 0.04,
+            position: Vec3::new(x, lift + 0.2 + (0.041 - 0.2) * share, 0.0),
+            rotation: Quat::from_rotation_x(FRAC_PI_2),
+            ..ColliderDesc::default()
+        });
+        [cuboid, a, b, c, d]
+    };
+    let bodies = at(0).map(|body| cloth.add_collider(&body).unwrap());
+    for tick in 1..=180 {
+        let now = at(tick);
+        for (body, desc) in bodies.iter().zip(&now) {
+            cloth.move_collider(*body, desc.position, desc.rotation).unwrap();
+        }
+        cloth.step(1);
+        for [i, j] in triangles(&cloth).into_iter().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]) {
+            let [from, to] = [i, j].map(|i| cloth.position(i).unwrap());
+            for part in 1..16 {
+                let x = from.lerp(to, part as f32 / 16.0);
+                let depth = -signed_distance(&now[0], x);
+                assert!(depth < TOLERANCE, "{height}, tick {tick}: {x} is {depth} m inside");
+            }
+        }
+    }
+}
+
+#[test]
+fn edges_of_cloth_stay_outside_a_box_while_a_capsule_presses_on_one_of_their_ends() {
+    for height in [0.02115, 0.0214, 0.02143] {
+        press_above_edges(height);
     }
 }
