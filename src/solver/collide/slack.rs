@@ -55,8 +55,7 @@ pub(super) fn set_slacks(
         let distance =
             if edge.sides == FeatureSides::Solid && is_inside() { 0.0 } else { between.length() };
         let step = features.edge_step(pair.edge);
-        let moved = (step, search.longest_carry(step, (&pair.particles, &ends), along));
-        search.slack(distance, &pair.particles, moved)
+        search.slack(distance, (&pair.particles, &ends), (step, along))
     }));
     slacks.extend(vertices.iter().map(|pair| {
         let vertex = &features.vertices[pair.vertex as usize];
@@ -74,9 +73,7 @@ pub(super) fn set_slacks(
             between.length() - BESIDE * normal.length().sqrt()
         };
         let step = features.vertex_step(pair.vertex);
-        let corners = (&pair.particles[..], &[a, b, c][..]);
-        let moved = (step, search.longest_carry(step, corners, Vec3::ZERO));
-        search.slack(distance, &pair.particles, moved)
+        search.slack(distance, (&pair.particles, &[a, b, c]), (step, Vec3::ZERO))
     }));
 }
 
@@ -104,49 +101,50 @@ impl Search<'_> {
         height > 0.0 && height * height > far * far * normal.length_squared()
     }
 
-    /// Returns an upper bound of how far a feature carries corners of the cloth, given by their particles
-    /// and relative to one end of the feature; `along` leads to its other end [m].
-    #[inline(always)]
-    fn longest_carry(
-        &self,
-        step: Option<&RigidStep>,
-        (particles, corners): (&[u32], &[Vec3]),
-        along: Vec3,
-    ) -> f32 {
-        step.map_or(0.0, |step| {
-            let farthest = || corners.iter().map(|x| x.length()).fold(0.0, max);
-            step.longest_way(|| farthest() + along.length() + self.corners.longest_way(particles))
-        })
-    }
-
-    /// Returns the slack of a pair from its distance [m], the particles of the cloth, and the motion of
-    /// the feature with a bound of how far that carries them [m].
+    /// Returns the slack of a pair from its distance [m], from the particles of the cloth and their
+    /// positions relative to one end of the feature, and from the motion of the feature and the way from
+    /// that end to its other one [m].
     #[inline(always)]
     fn slack(
         &self,
         distance: f32,
-        particles: &[u32],
-        (step, carried): (Option<&RigidStep>, f32),
+        (particles, corners): (&[u32], &[Vec3]),
+        (step, along): (Option<&RigidStep>, Vec3),
     ) -> f32 {
-        let least = self.gap * (1.0 + ROUNDING);
-        let slack = |way: f32| min(distance - least, (distance - way) * 0.5);
+        match step {
+            None => self.slack_after(distance, self.corners.longest_way(particles)),
+            Some(step) => self.slack_in_motion(distance, (particles, corners), (step, along)),
+        }
+    }
+
+    /// Returns the slack of a pair from its distance and from the longest way of the cloth in the
+    /// substep, relative to the feature [m].
+    #[inline(always)]
+    fn slack_after(&self, distance: f32, way: f32) -> f32 {
+        min(distance - self.gap * (1.0 + ROUNDING), (distance - way) * 0.5)
+    }
+
+    /// Returns the slack of a pair whose feature moves. Corners are relative to one end of the feature,
+    /// and `along` leads to its other end [m].
+    #[inline(never)]
+    fn slack_in_motion(
+        &self,
+        distance: f32,
+        (particles, corners): (&[u32], &[Vec3]),
+        (step, along): (&RigidStep, Vec3),
+    ) -> f32 {
         let own = self.corners.longest_way(particles);
-        let bound = slack(own + carried);
-        if bound > 0.0 || step.is_none() || distance <= least {
+        let farthest = || corners.iter().map(|x| x.length()).fold(0.0, max);
+        let carried = step.longest_way(|| farthest() + along.length() + own);
+        let bound = self.slack_after(distance, own + carried);
+        if bound > 0.0 || distance <= self.gap * (1.0 + ROUNDING) {
             return bound;
         }
         // The bound is not enough where cloth and feature move along with each other.
-        slack(self.relative_way(particles, step))
-    }
-
-    /// Returns the longest way of the particles in the substep, relative to a feature that carries them
-    /// along [m].
-    #[inline(never)]
-    fn relative_way(&self, particles: &[u32], step: Option<&RigidStep>) -> f32 {
         let way = |i: &u32| {
-            let start = start_position(self.particles, *i as usize, step);
+            let start = start_position(self.particles, *i as usize, Some(step));
             self.position(*i).distance(start)
         };
-        particles.iter().map(way).fold(0.0, max)
+        self.slack_after(distance, particles.iter().map(way).fold(0.0, max))
     }
 }
