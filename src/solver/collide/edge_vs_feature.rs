@@ -129,7 +129,7 @@ pub(super) fn push(
 
 /// Returns the position of a particle at the start of the substep, as a feature that moved since
 /// carries it along [m].
-#[inline(always)]
+#[inline(never)]
 pub(super) fn start_position(
     particles: &LocalParticles<'_>,
     i: usize,

@@ -201,7 +201,7 @@ impl LocalParticles<'_> {
     }
 
     /// Returns the local position of a particle at the start of the substep [m].
-    #[inline(always)]
+    #[inline(never)]
     pub fn start_position(&self, i: usize) -> Vec3 {
         self.frames[0].point_to_local(self.start_in_world(i))
     }
@@ -213,7 +213,7 @@ impl LocalParticles<'_> {
     }
 
     /// Returns the local position of a particle now [m].
-    #[inline(always)]
+    #[inline(never)]
     pub fn end_position(&self, i: usize) -> Vec3 {
         self.frames[1].point_to_local(self.x.get(i))
     }

@@ -107,6 +107,7 @@ impl ParticleMotions<'_> {
     }
 
     /// Bounds the motion relative to a collider with flat faces, with `distance` [m] around it.
+    #[inline(never)]
     pub fn bound(&self, i: usize, body: &ColliderBody, distance: f32) -> MotionBound {
         let frames = [body.last.to_transform(), body.next.to_transform()];
         let [now, start] = self.both(i);

@@ -25,7 +25,6 @@
 //! positions keep the linear momentum up to rounding, except for what colliders push.
 
 use crate::math::columns::Columns;
-use crate::math::simd::{Level, leveled};
 use crate::math::wide4::{Float4, Wide4};
 use crate::math::{max, min};
 use crate::solver::collide::collider_contact::ColliderContact;
@@ -196,7 +195,6 @@ pub(crate) fn collect_active(
 ///
 /// `force_scale` turns an impulse into a force [1/s²].
 pub(crate) fn solve(
-    level: Level,
     contacts: &[Contact],
     active: &mut [ActiveContact],
     (forces, index): (&mut WarmStart, &mut WarmStartIndex),
@@ -218,7 +216,7 @@ pub(crate) fn solve(
             state.apply_impulse(contact, x, Wide4::from_vec3(impulse));
         }
     }
-    solve_normals(level, contacts, active, supports, x);
+    solve_normals(contacts, active, supports, x);
     for state in &mut *active {
         let contact = &contacts[state.contact as usize];
         solve_friction(contact, state, start, x, friction.at(contact));
@@ -234,18 +232,8 @@ pub(crate) fn solve(
     }));
 }
 
-leveled! {
-    /// Solves the normal impulses of all active contacts.
-    fn solve_normals(
-        contacts: &[Contact],
-        active: &mut [ActiveContact],
-        supports: &mut [ColliderContact],
-        x: &mut [Float4],
-    ) = sweep_normals
-}
-
-#[inline(always)]
-fn sweep_normals(
+/// Solves the normal impulses of all active contacts.
+fn solve_normals(
     contacts: &[Contact],
     active: &mut [ActiveContact],
     supports: &mut [ColliderContact],

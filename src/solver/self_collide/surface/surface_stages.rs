@@ -334,7 +334,6 @@ pub(crate) fn solve_contacts(world: &mut World) {
     }
     let force_scale = 1.0 / (scheme.velocity_step * scheme.velocity_step);
     contact_solver::solve(
-        world.level,
         contacts,
         active,
         (&mut world.warm_start, warm_start_index),
