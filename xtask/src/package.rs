@@ -13,9 +13,9 @@ use crate::{c, dist, files, shell, symbols};
 pub const NEEDS: &[&Need] = &[&setup::CXX, &setup::CMAKE, &setup::PKG_CONFIG];
 
 /// The largest size of the shared library, stripped [bytes].
-const MAX_SHARED: u64 = 2_095_000;
+const MAX_SHARED: u64 = 2_094_000;
 /// The largest size of the example `hang.c` with the static library, stripped [bytes].
-const MAX_STATIC: u64 = 1_640_000;
+const MAX_STATIC: u64 = 1_636_000;
 
 /// The least number of 8-lane multiplications in the shared library. The compiler makes many of
 /// them from plain loops; options that reduce size can stop that without notice.
