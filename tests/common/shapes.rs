@@ -221,26 +221,39 @@ pub fn swung(body: &[Vec3], angle: f32) -> Vec<Vec3> {
     body.iter().map(turned).collect()
 }
 
-/// How deep a point lies in a tube that does not intersect itself [m], 0 outside: the distance of the
-/// nearest point of its surface, if `x` is behind it.
-///
-/// The normals of the triangles that share this point count by their angles there (Bærentzen and
-/// Aanæs, "Signed distance computation using the angle weighted pseudonormal", 2005).
-pub fn depth_in_tube(tube: &[Vec3], indices: &[u32], x: Vec3) -> f32 {
-    let (mut nearest, mut distance) = (Vec::new(), f32::INFINITY);
-    for ids in indices.chunks(3) {
-        let [a, b, c] = [0, 1, 2].map(|k| tube[ids[k] as usize]);
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let gap = (low - x).max(x - high).max(Vec3::ZERO).length();
-        // Farther than the nearest so far by more than what counts as tied.
-        if gap <= distance + 1.0e-6 {
-            let (other, side) = distance_and_side([a, b, c], x);
-            distance = distance.min(other);
-            nearest.push((other, side));
-        }
+/// A tube that does not intersect itself: its triangles, and the lowest and highest corner of each.
+pub struct Tube(Vec<([Vec3; 3], [Vec3; 2])>);
+
+impl Tube {
+    pub fn new(positions: &[Vec3], indices: &[u32]) -> Self {
+        let triangles = indices.chunks(3).map(|ids| {
+            let corners @ [a, b, c] = [0, 1, 2].map(|k| positions[ids[k] as usize]);
+            (corners, [a.min(b).min(c), a.max(b).max(c)])
+        });
+        Self(triangles.collect())
     }
-    let tied = nearest.iter().filter(|(other, _)| *other <= distance + 1.0e-6);
-    if tied.map(|(_, side)| side).sum::<f32>() < 0.0 { distance } else { 0.0 }
+
+    /// How deep a point lies in the tube [m], 0 outside: the distance of the nearest point of its
+    /// surface, if `x` is behind it.
+    ///
+    /// The normals of the triangles that share this point count by their angles there (Bærentzen and
+    /// Aanæs, "Signed distance computation using the angle weighted pseudonormal", 2005).
+    pub fn depth(&self, x: Vec3) -> f32 {
+        let at_corners = self.0.iter().map(|([corner, ..], _)| corner.distance_squared(x));
+        let mut distance = at_corners.fold(f32::INFINITY, f32::min).sqrt();
+        let mut nearest = Vec::new();
+        for (corners, [low, high]) in &self.0 {
+            let gap2 = (low - x).max(x - high).max(Vec3::ZERO).length_squared();
+            // Farther than the nearest so far by more than what counts as tied.
+            if gap2 <= (distance + 1.0e-6).powi(2) {
+                let (other, side) = distance_and_side(*corners, x);
+                distance = distance.min(other);
+                nearest.push((other, side));
+            }
+        }
+        let tied = nearest.iter().filter(|(other, _)| *other <= distance + 1.0e-6);
+        if tied.map(|(_, side)| side).sum::<f32>() < 0.0 { distance } else { 0.0 }
+    }
 }
 
 /// Distance of `x` from a triangle [m], and on which side of it `x` is, times the angle of the

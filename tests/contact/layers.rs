@@ -1,7 +1,7 @@
 //! Clothes in layers: a cloth that collides with another one, and both as one cloth.
 
 use crate::common::crossings::{crossing_count, crossings_between};
-use crate::common::shapes::{depth_in_tube, free_sheet, swung, tube};
+use crate::common::shapes::{Tube, free_sheet, swung, tube};
 use muslin::glam::Vec3;
 use muslin::{
     Cloth, Collider, ColliderDesc, Error, GridDesc, Material, MeshDesc, SelfCollision, Settings,
@@ -215,8 +215,8 @@ fn two_skirts_as_one_cloth_stay_in_order() {
         cloth.update_collider(body, &leg.at(tick)).unwrap();
         cloth.step(1);
         let (inner, outer) = cloth.positions().split_at(count as usize);
-        let depth = |x: &Vec3| depth_in_tube(inner, &indices, *x);
-        let deepest = outer.iter().map(depth).fold(0.0, f32::max);
+        let inner = Tube::new(inner, &indices);
+        let deepest = outer.iter().map(|x| inner.depth(*x)).fold(0.0, f32::max);
         let crossings = crossing_count(&cloth);
         assert!(crossings == 0 && deepest < 2.0e-4, "tick {tick}: {crossings}, {deepest} m deep");
     }

@@ -73,11 +73,13 @@ fn cloth_between_two_bodies_stays_outside_both_and_within_its_stretch() {
     for body in [ball, capsule, cuboid, octahedron(RADIUS), sphere_mesh(RADIUS, 12)] {
         for self_collision in [SelfCollision::None, SelfCollision::Surface] {
             for max_stretch in [0.0, 0.05] {
-                for speed in [0.2, 1.0, 3.0] {
+                for speed in [1.0, 3.0] {
                     squeeze(&body, self_collision, max_stretch, speed);
                 }
             }
         }
+        squeeze(&body, SelfCollision::None, 0.0, 0.2);
+        squeeze(&body, SelfCollision::Surface, 0.05, 0.2);
     }
 }
 

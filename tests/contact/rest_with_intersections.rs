@@ -7,8 +7,9 @@ use muslin::{Cloth, GridDesc, PinMode, Wind};
 /// Highest speed that counts as rest [m/s].
 const REST: f32 = 1.0e-3;
 
-/// Number of random sequences of throws.
+/// Number of random sequences of throws; with many iterations, which take long.
 const SEEDS: u32 = 4;
+const FEW_SEEDS: u32 = 2;
 
 /// Runs two seconds and returns the RMS speed over them, weighted by mass [m/s].
 fn rms_speed_over_two_seconds(cloth: &mut Cloth) -> f32 {
@@ -55,7 +56,8 @@ fn self_intersecting_cloth(mut desc: GridDesc, iterations: u32, seed: u32) -> Cl
 /// by its intersections: a cloth that only swings would come to rest in any case.
 fn assert_intersecting_cloths_rest(side: u32, pin_mode: PinMode, iterations: u32) {
     let mut most_stretch: f32 = 0.0;
-    for seed in 0..SEEDS {
+    let seeds = if iterations > 2 { FEW_SEEDS } else { SEEDS };
+    for seed in 0..seeds {
         let mut cloth = self_intersecting_cloth(sheet(side, pin_mode), iterations, seed);
         let speed = rms_speed_over_two_seconds(&mut cloth);
         assert!(
