@@ -71,7 +71,8 @@ pub(super) fn smoothing(shape: &CollisionShape, spacing: f32) -> (SurfaceBend, f
 
 /// Returns the longest edge of a triangle that stays outside a shape if its corners keep the
 /// contact distance [m]: `gap` [m] and `margin` [m]. Features that bend no more than `smooth` count
-/// as smooth. Infinity for planes.
+/// as smooth. Infinity for planes, and for shapes without smooth features, such as boxes: their edges and
+/// corners are tested themselves.
 ///
 /// The sagitta of that edge uses up the margin and what triangles may leave of the gap.
 pub(super) fn longest_free_edge(

@@ -57,7 +57,7 @@ pub(crate) struct ContactScratch {
     /// The slacks of the candidate pairs of one collider [m].
     pub(super) slacks: Vec<f32>,
     pub(super) long_pairs: LongPairs,
-    /// All particles in the rounds of one collider.
+    /// How far each particle has been pushed by the rounds of one collider.
     pub(super) corners: Vec<PushedCorner>,
     pub(super) room: Room,
     /// For each particle the index of its last contact in `collider_contacts`.

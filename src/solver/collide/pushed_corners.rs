@@ -7,7 +7,7 @@ use crate::math::max;
 use crate::solver::collide::local_particles::LocalParticles;
 use glam::Vec3;
 
-/// A particle in the rounds of one search.
+/// A particle, since slacks were computed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PushedCorner {
     /// Its local position at the beginning [m].
@@ -18,11 +18,11 @@ pub(super) struct PushedCorner {
     pushed: f32,
 }
 
-/// All particles in the rounds of one search.
+/// All particles, since slacks were computed.
 pub(super) struct PushedCorners<'a>(&'a mut Vec<PushedCorner>);
 
 impl<'a> PushedCorners<'a> {
-    /// Begins a search.
+    /// Starts to measure from the current positions.
     pub fn begin(corners: &'a mut Vec<PushedCorner>, particles: &LocalParticles<'_>) -> Self {
         corners.clear();
         corners.extend((0..particles.w.len()).map(|i| {

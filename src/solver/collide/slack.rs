@@ -1,17 +1,17 @@
-//! How far the cloth must be pushed in the rounds of one search before a candidate pair of cloth and
-//! feature can touch. Few pairs touch, so that most are not tested.
+//! Slacks of candidate pairs of cloth and features: how far the corners of the cloth must be pushed
+//! before the pair can touch. Few pairs touch, so most need no test.
 //!
 //! ```text
 //! they touch only if    distance now < gap,  or  distance now < way in the substep: one passed the other
 //! pushes of length s    change the distance by s at most, and the way by s at most
 //! slack                 min(distance − gap, (distance − way) / 2)
 //! ```
-//! Cloth that is inside a solid may be pushed out from farther away, so it has no slack. Cloth that is
-//! several gaps above a feature, along the normal of both, is not tested even if it passed the feature:
-//! it is taken to have gone around it.
+//! Cloth inside a solid may be pushed out from farther away, so it has no slack. Cloth that is more than
+//! [`CLOSE_GAPS`] above a feature, along the normal of both, has an infinite slack, even if it passed the
+//! feature: it is assumed to have gone around it.
 //!
 //! Reads local particles, pushed corners and candidate pairs; writes slacks.
-//! Invariant: a pair closer than that whose corners have been pushed less than its slack has no contact.
+//! Invariant: a pair with a finite slack has no contact until a corner is pushed as far as that.
 
 use crate::geometry::closest_points::{interpolate, segment_to_segment, triangle_to_origin};
 use crate::geometry::features::FeatureSides;
@@ -27,8 +27,8 @@ use glam::Vec3;
 /// the gap beyond it have no slack.
 const ROUNDING: f32 = 0.1;
 
-/// Pairs that are farther apart than this many gaps along their common normal are not tested until the
-/// next search.
+/// Pairs that are farther apart than this many gaps along their common normal are not tested until slacks
+/// are computed again.
 pub(super) const CLOSE_GAPS: f32 = 4.0;
 
 /// Sets the slack of each pair of a query [m]: edge pairs first, then vertex pairs.
@@ -101,9 +101,8 @@ impl Search<'_> {
         height > 0.0 && height * height > far * far * normal.length_squared()
     }
 
-    /// Returns the slack of a pair from its distance [m], from the particles of the cloth and their
-    /// positions relative to one end of the feature, and from the motion of the feature and the way from
-    /// that end to its other one [m].
+    /// Returns the slack of a pair [m]. Corners of the cloth are relative to one end of the feature, and
+    /// `along` leads to its other end [m]. `step` is the motion of the feature.
     #[inline(always)]
     fn slack(
         &self,
@@ -117,15 +116,14 @@ impl Search<'_> {
         }
     }
 
-    /// Returns the slack of a pair from its distance and from the longest way of the cloth in the
-    /// substep, relative to the feature [m].
+    /// Returns the slack of a pair [m]. `way` is the longest way of a corner in the substep, relative to
+    /// the feature [m].
     #[inline(always)]
     fn slack_after(&self, distance: f32, way: f32) -> f32 {
         min(distance - self.gap * (1.0 + ROUNDING), (distance - way) * 0.5)
     }
 
-    /// Returns the slack of a pair whose feature moves. Corners are relative to one end of the feature,
-    /// and `along` leads to its other end [m].
+    /// Returns the slack of a pair whose feature moves [m]; see [`Search::slack`].
     #[inline(never)]
     fn slack_in_motion(
         &self,
