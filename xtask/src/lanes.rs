@@ -54,7 +54,7 @@ pub fn run(steps: &[&'static Step]) -> Result<Vec<Outcome>> {
     let mut left = steps.to_vec();
     let mut running: Vec<Running> = Vec::new();
     let mut outcomes: Vec<Outcome> = Vec::new();
-    let mut spent = ended_children_time();
+    let mut spent = shell::ended_children_time();
     loop {
         let has_failed = outcomes.iter().any(|outcome| !outcome.has_passed);
         while !has_failed && running.len() < lanes {
@@ -78,7 +78,7 @@ pub fn run(steps: &[&'static Step]) -> Result<Vec<Outcome>> {
         let status = status.during(|| format!("waiting for step {name}"))?;
         if let Some(at) = running.iter().position(|one| one.step.name == name) {
             let one = running.remove(at);
-            let until_now = ended_children_time();
+            let until_now = shell::ended_children_time();
             let processor_time =
                 until_now.zip(spent).map(|(now, before)| now.saturating_sub(before));
             spent = until_now;
@@ -118,16 +118,6 @@ fn start(step: &Step, run: &str) -> Result<Child> {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut command, 0);
     command.spawn().during(during)
-}
-
-/// Returns the processor time of all processes that this one has waited for, and of those that they have
-/// waited for; `None` where the system does not tell it.
-pub fn ended_children_time() -> Option<Duration> {
-    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // The program's name, in parentheses, may contain spaces. Fields 16 and 17 are in units of 10 ms.
-    let fields: Vec<_> = stat.rsplit_once(')')?.1.split_whitespace().collect();
-    let ticks: u64 = fields.get(13..15)?.iter().filter_map(|field| field.parse::<u64>().ok()).sum();
-    Some(Duration::from_millis(10 * ticks))
 }
 
 /// Prints the output of a step that has ended.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use crate::failure::{During, Failure, Result};
 use crate::files;
@@ -48,18 +49,37 @@ pub fn typed(command: &Command) -> String {
     std::iter::once(name).chain(command.get_args()).map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// Prints a command and runs it to its end.
+/// A command whose times are printed takes at least this long.
+const LONG: Duration = Duration::from_secs(5);
+
+/// Prints a command and runs it to its end, and prints its times if it took long.
 ///
 /// # Errors
 /// Fails if the command cannot start or ends with another status than success.
 pub fn run(command: &mut Command) -> Result {
     let typed = typed(command);
     println!("$ {typed}");
+    let (start, before) = (Instant::now(), ended_children_time());
     let status = command.status().during(|| format!("starting `{typed}`"))?;
+    let (time, processor_time) = (start.elapsed(), ended_children_time().zip(before));
+    if let Some((now, before)) = processor_time.filter(|_| time >= LONG) {
+        let processor_time = now.saturating_sub(before).as_secs_f32();
+        println!("{:.0} s ({processor_time:.0} s of processor time)", time.as_secs_f32());
+    }
     if status.success() {
         return Ok(());
     }
     Err(Failure::new(format!("`{typed}` failed ({status})")))
+}
+
+/// Returns the processor time of all processes that this one has waited for, and of those that they have
+/// waited for; `None` where the system does not tell it.
+pub fn ended_children_time() -> Option<Duration> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The program's name, in parentheses, may contain spaces. Fields 16 and 17 are in units of 10 ms.
+    let fields: Vec<_> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks: u64 = fields.get(13..15)?.iter().filter_map(|field| field.parse::<u64>().ok()).sum();
+    Some(Duration::from_millis(10 * ticks))
 }
 
 /// Runs a command and returns its standard output.

@@ -6,7 +6,7 @@ use crate::failure::{During, Failure, Result};
 use crate::lanes::{self, Outcome};
 use crate::setup::{self, Need};
 use crate::steps::{STEPS, Step};
-use crate::{bits, npm, python, rust, tools};
+use crate::{bits, npm, python, rust, shell, tools};
 
 /// The option that adds the steps that take long and rarely find anything.
 const ALL: &str = "--all";
@@ -84,7 +84,7 @@ fn run_alone(step: &Step) -> Result<Outcome> {
     println!("\n== {}: {}", step.name, step.about);
     let start = Instant::now();
     (step.run)().during(|| format!("step {}", step.name))?;
-    let (time, processor_time) = (start.elapsed(), lanes::ended_children_time());
+    let (time, processor_time) = (start.elapsed(), shell::ended_children_time());
     Ok(Outcome { name: step.name, time, processor_time, has_passed: true })
 }
 
