@@ -17,19 +17,20 @@ pub fn free_sheet(nodes: u32, width: f32, height: f32) -> GridDesc {
     desc
 }
 
-/// Signed distance of the world-space point `x` from a posed shape [m]; negative inside.
+/// Signed distance of the world-space point `x` from a posed shape [m]; negative inside. Far from the
+/// corners of a hull or mesh a lower bound, which is quicker to find.
 pub fn signed_distance(desc: &ColliderDesc, x: Vec3) -> f32 {
     let p = desc.rotation.inverse() * (x - desc.position);
+    let reach = desc.positions.iter().map(|corner| corner.length()).fold(0.0, f32::max);
+    if reach > 0.0 && p.length() > 1.5 * reach {
+        return p.length() - reach;
+    }
     match desc.shape {
         Shape::Plane => p.y,
         Shape::Sphere => p.length() - desc.radius,
         Shape::Capsule => {
             let top = if desc.top_radius < 0.0 { desc.radius } else { desc.top_radius };
-            let balls = (0..=400).map(|k| k as f32 / 400.0).map(|t| {
-                let center = Vec3::Y * (desc.half_height * (2.0 * t - 1.0));
-                (p - center).length() - (desc.radius + (top - desc.radius) * t)
-            });
-            balls.fold(f32::INFINITY, f32::min)
+            capsule_distance(desc.half_height, [desc.radius, top], p)
         }
         Shape::Box => {
             let q = p.abs() - desc.half_extents;
@@ -87,6 +88,22 @@ pub fn speed_and_drift_at_rest(cloth: &mut Cloth) -> (f32, f32) {
     }
     let drift = cloth.positions().iter().zip(start).map(|(now, then)| (*now - then).length());
     (most, drift.fold(0.0, f32::max))
+}
+
+/// Signed distance from the balls around the points of the y axis within `half_height`, whose radius
+/// changes evenly from the lower end to the upper one. The nearest ball is where the distance from its
+/// centre changes as fast as its radius.
+fn capsule_distance(half_height: f32, [bottom, top]: [f32; 2], p: Vec3) -> f32 {
+    let from_axis = p.x.hypot(p.z);
+    let slope = if half_height > 0.0 { (top - bottom) / (2.0 * half_height) } else { 0.0 };
+    // One ball holds all others where the radius changes faster than the centre moves.
+    let shift = if slope.abs() < 1.0 {
+        slope * from_axis / (1.0 - slope * slope).sqrt()
+    } else {
+        slope * f32::INFINITY
+    };
+    let center = (p.y + shift).clamp(-half_height, half_height);
+    from_axis.hypot(p.y - center) - (bottom + slope * (center + half_height))
 }
 
 /// Signed distance from the convex hull of `points`: the largest distance over all supporting

@@ -90,27 +90,25 @@ fn most_and_last_crossings(
 /// The vertices lie above each other, so pairs of edges meet at their ends.
 #[test]
 fn stacked_sheets_rest_one_thickness_apart() {
-    for (sheets, side) in [(5, 20), (5, 16)] {
-        let count = (side * side) as usize;
-        let mut desc = stacked_sheets(sheets, side, 0.5, |sheet, x| {
-            x + Vec3::Y * (0.02 + 0.05 * sheet as f32)
-        });
-        desc.material.thickness = 0.002;
-        let mut cloth = Cloth::mesh(&desc).unwrap();
-        cloth.add_collider(&floor_at(0.0)).unwrap();
-        let name = format!("{sheets} sheets of {side} x {side}");
-        let (most, _) = most_and_last_crossings(&name, &mut cloth, 180, |_, _| ());
-        assert_eq!(most, 0, "{name}");
-        let all: Vec<f32> = cloth.positions().iter().map(|x| x.y).collect();
-        let heights: Vec<f32> =
-            all.chunks(count).map(|of| of.iter().sum::<f32>() / count as f32).collect();
-        println!("heights {heights:?}");
-        for pair in heights.windows(2) {
-            let gap = (pair[1] - pair[0]) / 0.002;
-            assert!((0.98..1.02).contains(&gap), "{name}: {gap} thicknesses");
-        }
-        assert!(rms_speed(&cloth) < 2.0e-4, "{name}: {} m/s", rms_speed(&cloth));
+    let (sheets, side) = (5, 16);
+    let count = (side * side) as usize;
+    let mut desc =
+        stacked_sheets(sheets, side, 0.5, |sheet, x| x + Vec3::Y * (0.02 + 0.05 * sheet as f32));
+    desc.material.thickness = 0.002;
+    let mut cloth = Cloth::mesh(&desc).unwrap();
+    cloth.add_collider(&floor_at(0.0)).unwrap();
+    let name = format!("{sheets} sheets of {side} x {side}");
+    let (most, _) = most_and_last_crossings(&name, &mut cloth, 180, |_, _| ());
+    assert_eq!(most, 0, "{name}");
+    let all: Vec<f32> = cloth.positions().iter().map(|x| x.y).collect();
+    let heights: Vec<f32> =
+        all.chunks(count).map(|of| of.iter().sum::<f32>() / count as f32).collect();
+    println!("heights {heights:?}");
+    for pair in heights.windows(2) {
+        let gap = (pair[1] - pair[0]) / 0.002;
+        assert!((0.98..1.02).contains(&gap), "{name}: {gap} thicknesses");
     }
+    assert!(rms_speed(&cloth) < 2.0e-4, "{name}: {} m/s", rms_speed(&cloth));
 }
 
 /// Contacts that had pushed before the stack landed rebounded, so a stack of eight layers bounced on
@@ -125,7 +123,7 @@ fn a_stack_of_eight_sheets_rests() {
         desc.material.thickness = thickness;
         let mut cloth = Cloth::mesh(&desc).unwrap();
         cloth.add_collider(&floor_at(0.0)).unwrap();
-        cloth.step(300);
+        cloth.step(200);
         let name = format!("sheets of {thickness} m, shifted by {shift} m");
         let speed = rms_speed(&cloth);
         println!("{name}: {speed} m/s");
@@ -144,11 +142,9 @@ fn a_sheet_that_falls_on_its_edge_crumples_without_self_intersection() {
 /// A row of cells can fold over completely within one substep and land on the next row.
 #[test]
 fn cells_that_fold_over_within_one_substep_do_not_intersect() {
-    for seed in [1, 5] {
-        let (most, last) =
-            most_and_last_crossings("landing", &mut standing_sheet(64, seed), 32, |_, _| ());
-        assert_eq!((most, last), (0, 0), "seed {seed}");
-    }
+    let (most, last) =
+        most_and_last_crossings("landing", &mut standing_sheet(64, 5), 32, |_, _| ());
+    assert_eq!((most, last), (0, 0));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use muslin::{Cloth, GridDesc, PinMode};
 const RATES: [u32; 4] = [30, 60, 120, 240];
 
 /// Particles along the side of a sheet.
-const SIDES: [u32; 4] = [24, 40, 56, 128];
+const SIDES: [u32; 4] = [24, 40, 56, 96];
 
 /// Sample points along a side at which shapes are compared.
 const SAMPLES: usize = 24;
@@ -28,7 +28,7 @@ fn settled_cloth(desc: &GridDesc) -> Cloth {
         let x = cloth.positions()[i as usize];
         cloth.set_velocity(i, Vec3::Z * 0.3 * (3.0 * x.x).sin() * x.y).unwrap();
     }
-    cloth.step((15.0 / desc.settings.tick) as u32);
+    cloth.step((10.0 / desc.settings.tick) as u32);
     cloth
 }
 

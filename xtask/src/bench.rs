@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::failure::{Failure, Result};
 use crate::serve::{Mount, Server};
-use crate::{bits, files, js, npm, setup, shell, wasm};
+use crate::{files, js, npm, setup, shell, wasm};
 
 /// The tables of native code; in node all tables have one name.
 const NATIVE: [&str; 7] = ["kernels", "ticks", "shreds", "layers", "scenes", "receipt", "crowd"];
@@ -23,7 +23,7 @@ const MESHES: &str = "meshes";
 pub fn run(arguments: &[String]) -> Result {
     if let Some((MESHES, rest)) = arguments.split_first().map(|(first, rest)| (&**first, rest)) {
         let is_test = rest.iter().any(|word| word == TEST);
-        let profile = if is_test { bits::TEST_PROFILE } else { "release" };
+        let profile = if is_test { "dev" } else { "release" };
         let build = ["run", "--quiet", "--package=muslin-meshes", "--profile", profile, "--"];
         return shell::run(shell::cargo(&build).args(rest));
     }
@@ -40,11 +40,10 @@ pub fn run(arguments: &[String]) -> Result {
     let wanted = NATIVE.iter().copied().filter(|name| all || words.contains(name));
     let wanted: Vec<_> = wanted.collect();
     if !wanted.is_empty() {
-        // The feature does not change the cost of a single thread.
-        let mut cargo = shell::cargo(&["bench", "--package=muslin", "--features=parallel"]);
+        let mut cargo = shell::cargo(&["bench", "--package=muslin"]);
         if words.contains(&TEST) {
-            // Nobody reads times of a test; step `bits` has built the library in this profile.
-            cargo.args(["--profile", bits::TEST_PROFILE]);
+            // Nobody reads times of a test; step `rust` has built the library in this profile.
+            cargo.args(["--profile", "dev"]);
         }
         cargo.args(["--bench=tables", "--"]);
         shell::run(cargo.args(wanted).args(options))?;

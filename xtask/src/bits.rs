@@ -4,7 +4,7 @@
 //! | platform | how it runs |
 //! | --- | --- |
 //! | native | on this machine, with the widest instructions that it has |
-//! | sse2, avx2 | on this machine, limited by `MUSLIN_SIMD_LIMIT`; where it lacks them, under qemu |
+//! | sse2, avx2 | the same program, limited by `MUSLIN_SIMD_LIMIT`; where that can't be, under qemu |
 //! | neon | under qemu |
 //! | wasm, simd128 | in node |
 //!
@@ -25,8 +25,8 @@ const AARCH64: &str = "aarch64-unknown-linux-musl";
 const X86_64: &str = "x86_64-unknown-linux-musl";
 /// These targets contain a C library, and Rust ships a linker, so that no cross compiler is needed.
 const LINK: &str = "-C linker=rust-lld";
-/// The same, for a program that obeys [`LIMIT`].
-const LINK_LIMITED: &str = "-C linker=rust-lld --cfg muslin_simd_limit";
+/// Makes a program obey [`LIMIT`].
+const LIMITED: &str = "--cfg muslin_simd_limit";
 /// The environment variable that limits the instructions: `sse2` or `avx2`.
 const LIMIT: &str = "MUSLIN_SIMD_LIMIT";
 /// The scene that qemu plays where a limit takes its place.
@@ -70,13 +70,13 @@ const PLATFORMS: &[Platform] = &[
     },
     Platform {
         name: "sse2",
-        target: Some((X86_64, LINK_LIMITED)),
+        target: Some((X86_64, LINK)),
         runner: Runner::Qemu("qemu-x86_64", &["-cpu", "Nehalem"]),
         instructions: Some("sse2"),
     },
     Platform {
         name: "avx2",
-        target: Some((X86_64, LINK_LIMITED)),
+        target: Some((X86_64, LINK)),
         runner: Runner::Qemu("qemu-x86_64", &["-cpu", "Nehalem,+xsave,+avx,+avx2"]),
         instructions: Some("avx2"),
     },
@@ -113,30 +113,38 @@ pub fn run(options: &[String]) -> Result {
 /// Step `bits`: the script and the scenes in optimised builds, also under other floating-point
 /// modes and on several threads, natively and on the other kind of processor; then the table.
 pub fn test() -> Result {
-    shell::run(&mut cargo_test(&["--lib", "--test=golden", "--test=*threads"]))?;
+    shell::run(&mut cargo_test(&["--test=golden"]))?;
     if can_emulate() {
         setup::ensure_target(AARCH64)?;
-        let modes = ["test", "--profile", TEST_PROFILE, "--package", PACKAGE, "--test", "golden"];
-        let mut cargo = cargo_for(&modes, Some((AARCH64, LINK)));
+        let modes = ["test", "--package", PACKAGE, "--test", "golden"];
+        let mut cargo = cargo_for(&modes, (AARCH64, LINK));
         cargo.env("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_MUSL_RUNNER", "qemu-aarch64");
         shell::run(cargo.args(["--", "modes::every_call", "modes::the_modes"]))?;
     }
     compare()
 }
 
-/// Returns the command that runs tests in an optimised build. A caller may add packages: the library
-/// is not built again, because its features stay the same.
+/// Returns a command of cargo with the profile of the tests. All programs of this profile obey [`LIMIT`],
+/// so that one build of the library serves them.
+pub fn cargo(args: &[&str]) -> Command {
+    let mut cargo = shell::cargo(args);
+    cargo.args(["--profile", TEST_PROFILE]);
+    cargo.env("RUSTFLAGS", LIMITED).env_remove("CARGO_ENCODED_RUSTFLAGS");
+    cargo
+}
+
+/// Returns the command that runs tests of `muslin-golden` in an optimised build. A caller may add packages:
+/// the library is not built again, because its features stay the same.
 pub fn cargo_test(tests: &[&str]) -> Command {
-    let mut cargo = shell::cargo(&["test", "--profile", TEST_PROFILE]);
-    cargo.args(tests).args(["--package=muslin", "--package=muslin-golden"]);
+    let mut cargo = cargo(&["test", "--package", PACKAGE]);
     // With the feature a cloth still runs on one thread unless a test asks for more.
-    cargo.arg("--features=muslin/parallel,muslin-golden/parallel");
+    cargo.args(tests).arg("--features=muslin-golden/parallel");
     cargo
 }
 
 /// Installs the standard library of every platform.
 pub fn ensure_targets() -> Result {
-    let targets = PLATFORMS.iter().filter(|p| p.is_available()).filter_map(|p| p.target);
+    let targets = PLATFORMS.iter().filter(|p| p.is_available()).filter_map(Platform::target);
     targets.into_iter().try_for_each(|(target, _)| setup::ensure_target(target))
 }
 
@@ -217,10 +225,10 @@ impl Platform {
     /// Builds the program and returns a copy of it, since another platform may be built in the same
     /// folder.
     fn build(&self) -> Result<PathBuf> {
-        let build = ["build", "--profile", TEST_PROFILE, "--bin", PACKAGE, "--package", PACKAGE];
-        shell::run(&mut match self.target {
-            Some(_) => cargo_for(&build, self.target),
-            // The test of the package needs the program, too, so the step has built it.
+        let build = ["build", "--bin", PACKAGE, "--package", PACKAGE];
+        shell::run(&mut match self.target() {
+            Some(target) => cargo_for(&build, target),
+            // The tests of the package need the program, too, so the step has built it.
             None => cargo_test(&["--no-run", "--test=golden"]),
         })?;
         let suffix = match self.runner {
@@ -228,7 +236,7 @@ impl Platform {
             Runner::Native => std::env::consts::EXE_SUFFIX,
             Runner::Qemu(..) => "",
         };
-        let dir = self.target.map_or(files::target(), |(target, _)| files::target().join(target));
+        let dir = self.target().map_or(files::target(), |(target, _)| files::target().join(target));
         let built = dir.join(TEST_PROFILE).join(format!("{PACKAGE}{suffix}"));
         let programs = files::target().join("golden");
         files::create_dir(&programs)?;
@@ -237,11 +245,15 @@ impl Platform {
         Ok(copy)
     }
 
-    /// The instructions that the program is limited to while it runs on this machine itself; none
-    /// if it obeys no limit or this machine lacks them.
+    /// The instructions that the program of this machine is limited to; none if it runs without a limit
+    /// or this machine lacks them.
     fn limit(&self) -> Option<&'static str> {
-        let obeys = self.target.is_some_and(|(_, flags)| flags == LINK_LIMITED);
-        self.instructions.filter(|instructions| obeys && can_run(instructions))
+        self.instructions.filter(|instructions| can_run(instructions))
+    }
+
+    /// What the program is built for; none if it is the one of this machine.
+    fn target(&self) -> Option<(&'static str, &'static str)> {
+        self.target.filter(|_| self.limit().is_none())
     }
 
     /// What runs the program, with its first arguments.
@@ -335,12 +347,9 @@ fn can_run(instructions: &str) -> bool {
 }
 
 /// Cargo for a target, with these compiler flags and none from the environment.
-fn cargo_for(args: &[&str], target: Option<(&str, &str)>) -> Command {
-    let mut cargo = shell::cargo(args);
-    if let Some((target, flags)) = target {
-        cargo.args(["--target", target]);
-        cargo.env("RUSTFLAGS", flags).env_remove("CARGO_ENCODED_RUSTFLAGS");
-    }
+fn cargo_for(args: &[&str], (target, flags): (&str, &str)) -> Command {
+    let mut cargo = cargo(args);
+    cargo.args(["--target", target]).env("RUSTFLAGS", flags);
     cargo
 }
 

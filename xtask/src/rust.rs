@@ -16,7 +16,6 @@ pub const CHECKS: [Check; 4] = [
 
 /// What turns every warning into an error.
 const DENY_WARNINGS: [&str; 3] = ["--", "-D", "warnings"];
-const PARALLEL: [&str; 2] = ["--features", "muslin/parallel,muslin-golden/parallel"];
 
 /// Fails where a file is formatted otherwise than rustfmt would.
 pub fn check_format() -> Result {
@@ -29,14 +28,13 @@ pub fn check_format() -> Result {
     })
 }
 
-/// Fails where clippy warns (in all crates, with threads, and in what is compiled for pages), and
-/// where the documentation has a defect.
+/// Fails where clippy warns (in all crates, without optional parts, and in what is compiled for pages),
+/// and where the documentation has a defect.
 pub fn lint() -> Result {
     setup::ensure_component("clippy", "clippy")?;
     setup::ensure_target(wasm::TARGET)?;
-    shell::run(shell::cargo(&["clippy", "--workspace", "--all-targets"]).args(DENY_WARNINGS))?;
-    let threads = ["clippy", "--all-targets", "--package=muslin", "--package=muslin-golden"];
-    shell::run(shell::cargo(&threads).args(PARALLEL).args(DENY_WARNINGS))?;
+    let all = ["clippy", "--workspace", "--all-targets", "--features=muslin-golden/parallel"];
+    shell::run(shell::cargo(&all).args(DENY_WARNINGS))?;
     let mut web = shell::cargo(&["clippy", "--lib", "--target", wasm::TARGET]);
     web.args(["muslin-js", "muslin-demo", "muslin-plain"].map(|name| format!("--package={name}")));
     shell::run(web.args(DENY_WARNINGS))?;
@@ -95,11 +93,11 @@ fn check_docs() -> Result {
 /// Cargo unites the features of the packages that it builds together. So several builds are quicker
 /// than one: `xtask` has been built with its own features, the documents show `--package muslin`,
 /// and `muslin-js`, which has no Rust tests, would change the features of what all others use.
-/// `muslin-features` has the crate without its optional parts.
+/// `muslin-features` has the crate without its optional parts. Step `bits` runs the tests of `muslin-golden`.
 pub fn test() -> Result {
     shell::run(&mut cargo_test(&["--package=muslin"]))?;
     shell::run(&mut cargo_test(&["--package=xtask"]))?;
-    let others = ["muslin", "xtask", "muslin-js", "muslin-features"];
+    let others = ["muslin", "xtask", "muslin-js", "muslin-features", "muslin-golden"];
     let others = others.map(|package| format!("--exclude={package}"));
     shell::run(cargo_test(&["--workspace"]).args(others))?;
     // Without optimisation: the tests are short, and no other build has these features.

@@ -26,10 +26,8 @@ pub fn run(arguments: &[String]) -> Result {
 }
 
 fn program(arguments: &[&str]) -> std::process::Command {
-    let run =
-        ["run", "--quiet", "--profile", bits::TEST_PROFILE, "--package", "muslin-validate", "--"];
-    let mut cargo = shell::cargo(&run);
-    cargo.args(arguments);
+    let mut cargo = bits::cargo(&["run", "--quiet", "--package", "muslin-validate"]);
+    cargo.arg("--").args(arguments);
     cargo
 }
 

@@ -7,8 +7,8 @@ use crate::shell;
 /// `cargo xtask verify`: plays the scenes that are named, or all; `--short` and `--list` are passed
 /// on.
 pub fn run(arguments: &[String]) -> Result {
-    let run = ["run", "--profile", bits::TEST_PROFILE, "--package", "muslin-verify", "--"];
-    shell::run(shell::cargo(&run).args(arguments))
+    let run = ["run", "--package", "muslin-verify"];
+    shell::run(bits::cargo(&run).arg("--").args(arguments))
 }
 
 /// Step `verify`: plays the short scenes, and a few runs of the reference cases of physics.

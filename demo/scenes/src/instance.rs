@@ -169,18 +169,15 @@ impl SceneInstance {
     /// As [`Cloth::advance`]: `seconds` is negative or not finite.
     pub fn advance(&mut self, seconds: f32) -> Result<()> {
         let Some(mover) = &mut self.mover else {
-            return self.cloths.iter_mut().try_for_each(|cloth| cloth.advance(seconds).map(|_| ()));
+            return Cloth::advance_many(&mut self.cloths, seconds).map(|_| ());
         };
         let Settings { tick, max_ticks_per_advance, .. } = *self.cloths[0].settings();
         // One tick at a time, so that it moves in every tick, also of a late frame.
         let mut remaining = seconds.min(tick * max_ticks_per_advance as f32);
         loop {
             mover.set_targets(&mut self.cloths);
-            let mut ticks = 0;
-            for cloth in &mut self.cloths {
-                ticks = cloth.advance(remaining.min(tick))?;
-            }
-            mover.add_ticks(ticks);
+            let ticks = Cloth::advance_many(&mut self.cloths, remaining.min(tick))?;
+            mover.add_ticks(ticks[0]);
             remaining -= tick;
             if remaining <= 0.0 {
                 return Ok(());
