@@ -17,8 +17,8 @@ pub fn free_sheet(nodes: u32, width: f32, height: f32) -> GridDesc {
     desc
 }
 
-/// Signed distance of the world-space point `x` from a posed shape [m]; negative inside. Far from the
-/// corners of a hull or mesh a lower bound, which is quicker to find.
+/// Signed distance of the world-space point `x` from a posed shape [m]; negative inside. Far away from a
+/// hull or mesh it is a lower bound, which takes less time to compute.
 pub fn signed_distance(desc: &ColliderDesc, x: Vec3) -> f32 {
     let p = desc.rotation.inverse() * (x - desc.position);
     let reach = desc.positions.iter().map(|corner| corner.length()).fold(0.0, f32::max);
@@ -90,13 +90,13 @@ pub fn speed_and_drift_at_rest(cloth: &mut Cloth) -> (f32, f32) {
     (most, drift.fold(0.0, f32::max))
 }
 
-/// Signed distance from the balls around the points of the y axis within `half_height`, whose radius
-/// changes evenly from the lower end to the upper one. The nearest ball is where the distance from its
-/// centre changes as fast as its radius.
+/// Signed distance of `p` from a tapered capsule [m]: the union of balls with centres on the y axis,
+/// whose radius changes linearly with the height of the centre. The nearest ball is the one where the
+/// derivative of the distance by that height is zero, or the one at an end.
 fn capsule_distance(half_height: f32, [bottom, top]: [f32; 2], p: Vec3) -> f32 {
     let from_axis = p.x.hypot(p.z);
     let slope = if half_height > 0.0 { (top - bottom) / (2.0 * half_height) } else { 0.0 };
-    // One ball holds all others where the radius changes faster than the centre moves.
+    // If the radius changes faster than the height, the largest ball contains all others.
     let shift = if slope.abs() < 1.0 {
         slope * from_axis / (1.0 - slope * slope).sqrt()
     } else {

@@ -9,7 +9,7 @@ const REST: f32 = 1.0e-3;
 
 /// Number of random sequences of throws.
 const SEEDS: u32 = 4;
-/// Their number with many iterations, which take long.
+/// Number of sequences for cloths with many iterations, which take long.
 const FEW_SEEDS: u32 = 2;
 
 /// Runs two seconds and returns the RMS speed over them, weighted by mass [m/s].

@@ -1,4 +1,4 @@
-//! Every scene of the demo passes its own check after 1 and 5 seconds, and when it ends.
+//! Every scene of the demo passes its own check after 1, 5 and 10 or more seconds.
 
 use crate::common::crossings::crossing_count;
 use muslin_scenes::{
@@ -6,7 +6,7 @@ use muslin_scenes::{
     SceneInstance, SheetOnBall, TornFlag,
 };
 
-/// Runs a scene for `last` seconds, asserts its check after 1, 5 and all seconds, and returns it.
+/// Runs a scene for `last` seconds, asserts its check after 1, 5 and `last` seconds, and returns it.
 fn checked_scene<S: Scene>(last: u32) -> SceneInstance {
     let mut scene = S::build();
     let mut ticks_run = 0;
@@ -38,7 +38,8 @@ fn the_sheet_on_ball_scene_passes_its_check_without_self_intersection() {
         scene.step(15);
         assert_eq!(crossing_count(&scene.cloths[0]), 0);
         if [4, 20, 40].contains(&quarters) {
-            SheetOnBall::check(&scene).unwrap_or_else(|what| panic!("{quarters} / 4 s: {what}"));
+            SheetOnBall::check(&scene)
+                .unwrap_or_else(|what| panic!("after {quarters} / 4 s: {what}"));
         }
     }
 }

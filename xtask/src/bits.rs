@@ -4,7 +4,7 @@
 //! | platform | how it runs |
 //! | --- | --- |
 //! | native | on this machine, with the widest instructions that it has |
-//! | sse2, avx2 | the same program, limited by `MUSLIN_SIMD_LIMIT`; where that can't be, under qemu |
+//! | sse2, avx2 | the same program, limited by `MUSLIN_SIMD_LIMIT`; on machines without them under qemu |
 //! | neon | under qemu |
 //! | wasm, simd128 | in node |
 //!
@@ -124,8 +124,8 @@ pub fn test() -> Result {
     compare()
 }
 
-/// Returns a command of cargo with the profile of the tests. All programs of this profile obey [`LIMIT`],
-/// so that one build of the library serves them.
+/// Returns a command of cargo that builds with [`TEST_PROFILE`]. All native programs obey [`LIMIT`], so
+/// that they share one build of the library.
 pub fn cargo(args: &[&str]) -> Command {
     let mut cargo = shell::cargo(args);
     cargo.args(["--profile", TEST_PROFILE]);
@@ -245,13 +245,13 @@ impl Platform {
         Ok(copy)
     }
 
-    /// The instructions that the program of this machine is limited to; none if it runs without a limit
-    /// or this machine lacks them.
+    /// The instructions to which the native program is limited; none if it runs without a limit, or if
+    /// this machine lacks them.
     fn limit(&self) -> Option<&'static str> {
         self.instructions.filter(|instructions| can_run(instructions))
     }
 
-    /// What the program is built for; none if it is the one of this machine.
+    /// The target and the compiler's flags; none for the native program.
     fn target(&self) -> Option<(&'static str, &'static str)> {
         self.target.filter(|_| self.limit().is_none())
     }

@@ -235,7 +235,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
     let words: Vec<_> = command.split_whitespace().collect();
     let rest = match words.as_slice() {
         ["cargo", "xtask", rest @ ..] => rest,
-        // What builds the library for the blocks of C has run exactly this.
+        // `c::build` has run this command for the blocks of C.
         ["cargo", "build", "--release", "--package", "muslin-c"] => return Action::Step("c"),
         _ => return Action::Shell,
     };

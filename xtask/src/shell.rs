@@ -49,7 +49,7 @@ pub fn typed(command: &Command) -> String {
     std::iter::once(name).chain(command.get_args()).map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// A command whose times are printed takes at least this long.
+/// The shortest time of a command whose times are printed.
 const LONG: Duration = Duration::from_secs(5);
 
 /// Prints a command and runs it to its end, and prints its times if it took long.
