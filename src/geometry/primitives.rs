@@ -113,9 +113,15 @@ impl SignedDistance for Capsule {
         let PlacedSphere { center, radius } = self.closest_sphere(p);
         let r = p - center;
         let length = r.length();
-        // On the axis any normal of the cone is right.
+        // On the axis any normal of the cone is right; a sphere has the same one as `Sphere`.
         let any_normal = || Vec3::new((1.0 - self.taper * self.taper).sqrt(), self.taper, 0.0);
-        let out = if length > 0.0 { r * (1.0 / length) } else { any_normal() };
+        let out = if length > 0.0 {
+            r * (1.0 / length)
+        } else if self.half_height > 0.0 {
+            any_normal()
+        } else {
+            Vec3::Y
+        };
         (length - radius, out)
     }
 }

@@ -146,13 +146,15 @@ fn run_pass(
         let Some(shape) = body.collision_shape() else { continue };
         let gap = contact_gap(body, world.material.thickness)
             * projection.map_or(1.0, Projection::gap_share);
+        let frames = frames(body);
         let mut particles = LocalParticles {
             x: &mut p.x,
             v: &p.v,
             w: &p.w,
             displacement: &scratch.displacement,
             predicted: &scratch.predicted,
-            frames: frames(body),
+            frames,
+            is_moving: frames[0] != frames[1],
             material: if is_projection {
                 ContactMaterial::FRICTIONLESS
             } else {

@@ -22,10 +22,20 @@ use core::ops::Range;
 
 /// The columns of a block of particles.
 #[derive(Clone, Copy)]
-struct BlockColumns<'a> {
-    x: [&'a [f32]; 3],
-    predicted: [&'a [f32]; 3],
-    displacement: [&'a [f32]; 3],
+pub(super) struct BlockColumns<'a> {
+    pub x: [&'a [f32]; 3],
+    pub predicted: [&'a [f32]; 3],
+    pub displacement: [&'a [f32]; 3],
+}
+
+impl<'a> BlockColumns<'a> {
+    pub fn of(particles: &'a LocalParticles<'_>, range: &Range<usize>) -> Self {
+        Self {
+            x: slices(particles.x, range),
+            predicted: slices(particles.predicted, range),
+            displacement: slices(particles.displacement, range),
+        }
+    }
 }
 
 /// Writes the clearances of a range of particles, and returns whether one of them may touch the
@@ -37,11 +47,7 @@ pub(super) fn update_clearance(
     range: Range<usize>,
     clearance: &mut [f32],
 ) -> bool {
-    let block = BlockColumns {
-        x: slices(particles.x, &range),
-        predicted: slices(particles.predicted, &range),
-        displacement: slices(particles.displacement, &range),
-    };
+    let block = BlockColumns::of(particles, &range);
     let clearance = &mut clearance[range];
     compute_clearance(level, block, &particles.frames, bound, clearance);
     let mut is_within = false;

@@ -167,6 +167,8 @@ pub(super) struct LocalParticles<'a> {
     pub predicted: &'a Columns,
     /// The frames of the collider at the start and at the end of the substep.
     pub frames: [Transform; 2],
+    /// Whether these two differ.
+    pub is_moving: bool,
     pub material: ContactMaterial,
     pub contact_scales: ContactScales<'a>,
     /// The distance that particles keep from the shape at scale 1, without `margin` [m].
@@ -218,6 +220,13 @@ impl LocalParticles<'_> {
         self.frames[1].point_to_local(self.x.get(i))
     }
 
+    /// Returns the local positions of a particle at the start of the substep and now [m].
+    #[inline(always)]
+    pub fn path_of(&self, i: usize) -> [Vec3; 2] {
+        let start = self.frames[0].point_to_local(self.start_in_world(i));
+        [start, self.frames[1].point_to_local(self.x.get(i))]
+    }
+
     /// Returns the path of a point of a triangle in this substep, in world space [m].
     #[inline(never)]
     fn path(&self, corners: &[usize], weights: &[f32]) -> Vec3 {
@@ -242,7 +251,7 @@ impl LocalParticles<'_> {
         if penetration.is_frictionless {
             return out;
         }
-        let slide = if self.is_far_from_zero && self.frames[0] == self.frames[1] {
+        let slide = if self.is_far_from_zero && !self.is_moving {
             // Local positions may have lost digits: those in a large collider that the cloth is at
             // the far end of.
             self.frames[1].vector_to_local(self.path(&corners, &weights)) + out - penetration.carry
@@ -259,13 +268,20 @@ impl LocalParticles<'_> {
     /// there by `carry` [m].
     fn surface_velocity(&self, at: Vec3, carry: Vec3) -> Vec3 {
         let mut travel = Vec3::ZERO;
-        if self.frames[0] != self.frames[1] {
+        if self.is_moving {
             travel = self.frames[1].point_to_world(at) - self.frames[0].point_to_world(at);
         }
         if carry != Vec3::ZERO {
             travel += self.frames[1].vector_to_world(carry);
         }
         travel * (1.0 / self.scheme.h)
+    }
+
+    /// Moves particle `i` out of a penetration at the end of its `path`, with friction, and records
+    /// the contact.
+    pub fn push_out(&mut self, i: usize, path: &[Vec3; 2], penetration: &Penetration) {
+        let correction = self.correction(([i; 3], [1.0, 0.0, 0.0]), *path, *penetration);
+        self.apply_local_correction(i, path[1], *penetration, correction);
     }
 
     /// Moves particle `i`, which itself touches the collider at the local point `at`, by a

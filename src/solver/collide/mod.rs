@@ -45,6 +45,7 @@ pub(crate) mod response;
 mod room;
 pub(crate) mod second_response;
 mod slack;
+mod solid_distances;
 pub(crate) mod solid_meshes;
 mod squeezed;
 mod triangle_rounds;

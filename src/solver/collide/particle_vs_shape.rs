@@ -22,10 +22,11 @@ use crate::geometry::signed_distance::SignedDistance;
 use crate::geometry::triangle_surface::CandidateTriangles;
 use crate::math::simd::Level;
 use crate::math::{max, min};
-use crate::solver::collide::distance_cull;
+use crate::solver::collide::distance_cull::{self, BlockColumns};
 use crate::solver::collide::local_particles::{Depenetration, LocalParticles, Penetration};
 use crate::solver::collide::mid_phase::Candidates;
 use crate::solver::collide::nearby_blocks::BLOCK;
+use crate::solver::collide::solid_distances::{MeasuredPoint, SolidDistances};
 use glam::Vec3;
 
 /// Largest number of steps of conservative advancement.
@@ -48,6 +49,7 @@ pub(super) fn solve_blocks(
 ) {
     let count = particles.w.len();
     let (bound, largest_gap) = (shape.distance_bound(), particles.largest_gap());
+    let mut distances = SolidDistances::default();
     for block in blocks {
         let first = *block as usize * BLOCK;
         let range = first..(first + BLOCK).min(count);
@@ -56,13 +58,36 @@ pub(super) fn solve_blocks(
         if !may_touch {
             continue;
         }
-        for i in range {
+        let block = BlockColumns::of(particles, &range);
+        let is_measured = distances.measure(level, shape, block, &particles.frames);
+        for i in range.clone() {
             // The comparison is false for NaN, so that NaN is tested.
             if particles.w[i] <= 0.0 || clearance[i] > largest_gap {
                 continue;
             }
-            solve_particle(shape, particles, candidates, i);
+            if is_measured {
+                solve_measured(shape, particles, distances.path(i - range.start), i);
+            } else {
+                solve_particle(shape, particles, candidates, i);
+            }
         }
+    }
+}
+
+/// Pushes one particle, whose path is measured, out of a solid.
+#[inline(always)]
+fn solve_measured(
+    shape: &CollisionShape,
+    particles: &mut LocalParticles<'_>,
+    [start, end]: [MeasuredPoint; 2],
+    i: usize,
+) {
+    let (gap, depenetration) = (particles.gap_of(i), particles.depenetration);
+    let continuous = |gap| continuous_contact(shape.solid()?, start, end.at, gap);
+    if let Some(penetration) =
+        contact_between(start, end.at, || end, gap, depenetration, continuous)
+    {
+        particles.push_out(i, &[start.at, end.at], &penetration);
     }
 }
 
@@ -95,7 +120,7 @@ pub(super) fn solve_particle(
     candidates: &Candidates<'_>,
     i: usize,
 ) {
-    let (from, end) = (particles.start_position(i), particles.end_position(i));
+    let [from, end] = particles.path_of(i);
     let gap = particles.gap_of(i);
     let depenetration = particles.depenetration;
     let nearby = |surface| CandidateTriangles { surface, triangles: candidates.faces(i) };
@@ -115,18 +140,14 @@ pub(super) fn solve_particle(
         _ => shape.solid().and_then(|solid| solid_contact(solid, from, end, gap, depenetration)),
     };
     let Some(penetration) = penetration else { return };
-    let carry = penetration.carry;
-    let start = if carry == Vec3::ZERO { from } else { from + carry };
+    let start = if penetration.carry == Vec3::ZERO { from } else { from + penetration.carry };
+    let CollisionShape::TriangleSurface(surface, _) = shape else {
+        return particles.push_out(i, &[start, end], &penetration);
+    };
     let correction = particles.correction(([i; 3], [1.0, 0.0, 0.0]), [start, end], penetration);
     // Friction moves along a plane and can cross a bent surface.
-    let correction = match shape {
-        CollisionShape::TriangleSurface(surface, _)
-            if nearby(surface).first_crossing(from, end + correction).is_some() =>
-        {
-            start - end
-        }
-        _ => correction,
-    };
+    let crosses = nearby(surface).first_crossing(from, end + correction).is_some();
+    let correction = if crosses { start - end } else { correction };
     particles.apply_local_correction(i, end, penetration, correction);
 }
 
@@ -244,13 +265,31 @@ fn solid_contact(
     gap: f32,
     depenetration: Depenetration,
 ) -> Option<Penetration> {
-    let (start_distance, outward) = solid.signed_distance(start);
-    let path = end - start;
+    let start = MeasuredPoint::new(solid, start);
+    let measured_end = || MeasuredPoint::new(solid, end);
+    let continuous = |gap| continuous_contact(solid, start, end, gap);
+    contact_between(start, end, measured_end, gap, depenetration, continuous)
+}
+
+/// As [`solid_contact`], where the start is measured, `measured_end` measures the end, and
+/// `continuous` gives the penetration of a particle that went around the body or through it, for a
+/// gap.
+#[inline(always)]
+fn contact_between(
+    start: MeasuredPoint,
+    end: Vec3,
+    measured_end: impl FnOnce() -> MeasuredPoint,
+    gap: f32,
+    depenetration: Depenetration,
+    continuous: impl FnOnce(f32) -> Option<Penetration>,
+) -> Option<Penetration> {
+    let (start_distance, outward) = (start.distance, start.normal);
     // The plane in front of the body separates them at the end.
-    if start_distance + path.dot(outward) >= min(gap, start_distance + depenetration.max_step) {
+    let separated = min(gap, start_distance + depenetration.max_step);
+    if start_distance + (end - start.at).dot(outward) >= separated {
         return None;
     }
-    let (end_distance, normal) = solid.signed_distance(end);
+    let MeasuredPoint { distance: end_distance, normal, .. } = measured_end();
     if normal.dot(outward) >= SAME_SIDE {
         return depenetration.penetration(normal, gap, start_distance, end_distance);
     }
@@ -261,8 +300,7 @@ fn solid_contact(
         let depth = depenetration.max_step;
         return Some(Penetration { is_frictionless: true, ..Penetration::new(outward, depth) });
     }
-    let gap = min(gap, start_distance + depenetration.max_step);
-    continuous_contact(solid, start, end, start_distance, gap)
+    continuous(separated)
 }
 
 /// Returns the penetration of a particle that went around a body or through it, with the normal
@@ -270,12 +308,11 @@ fn solid_contact(
 #[inline(never)]
 fn continuous_contact(
     solid: &dyn SignedDistance,
-    start: Vec3,
+    start: MeasuredPoint,
     end: Vec3,
-    start_distance: f32,
     gap: f32,
 ) -> Option<Penetration> {
-    let (at, normal) = first_hit(solid, start, end - start, start_distance, gap)?;
+    let (at, normal) = first_hit(solid, start.at, end - start.at, start.distance, gap)?;
     let (distance, _) = solid.signed_distance(at);
     let depth = gap - distance - (end - at).dot(normal);
     (depth > 0.0).then_some(Penetration::new(normal, depth))

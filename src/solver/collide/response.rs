@@ -133,21 +133,19 @@ fn resolve_contact(
     let weighted = |old: Vec3, new: Vec3| {
         if contact.weight < 1.0 { old + (new - old) * contact.weight } else { new }
     };
-    let before = [p.v.get(i), p.v_extrapolated.get(i)];
-    let after = if -approach > parameters.resting_speed {
-        let v = surface + tangential(step * (1.0 / h)) - n * (approach * contact.restitution);
-        p.set_motion(i, p.x.get(i), weighted(before[0], v), parameters.gravity, h);
-        [p.v.get(i), p.v_extrapolated.get(i)]
+    let (v, v_extrapolated) = (p.v.get(i), p.v_extrapolated.get(i));
+    if -approach > parameters.resting_speed {
+        let new = surface + tangential(step * (1.0 / h)) - n * (approach * contact.restitution);
+        p.set_motion(i, p.x.get(i), weighted(v, new), parameters.gravity, h);
     } else {
-        let after = before.map(|v| weighted(v, surface + tangential(v - surface)));
-        p.v.set(i, after[0]);
-        p.v_extrapolated.set(i, after[1]);
+        p.v.set(i, weighted(v, surface + tangential(v - surface)));
+        let new = surface + tangential(v_extrapolated - surface);
+        p.v_extrapolated.set(i, weighted(v_extrapolated, new));
         let displacement = surface * h + tangential(step * parameters.decay);
         p.displacement.set(i, weighted(p.displacement.get(i), displacement));
-        after
-    };
+    }
     let of_correction = contact.correction * parameters.velocity_per_correction;
-    let [v, v_extrapolated] = [0, 1].map(|k| after[k] - before[k]);
+    let (v, v_extrapolated) = (p.v.get(i) - v, p.v_extrapolated.get(i) - v_extrapolated);
     let later =
         of_correction * (parameters.remaining - 1.0) + (v_extrapolated - v) * parameters.remaining;
     [(v + of_correction) * p.mass[i], later * p.mass[i]]

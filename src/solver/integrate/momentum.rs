@@ -60,6 +60,14 @@ pub(super) fn fixed_particles(
     (fixed, count)
 }
 
+/// The particles of a cloth but for long runs of free ones.
+fn particles_near_fixed(w: &[f32]) -> impl Iterator<Item = usize> {
+    const RUN: usize = 64;
+    let has_fixed = |run: &[f32]| run.iter().filter(|w| **w <= 0.0).count() > 0;
+    let runs = w.chunks(RUN).enumerate().filter(move |(_, run)| has_fixed(run));
+    runs.flat_map(|(at, run)| at * RUN..at * RUN + run.len())
+}
+
 /// What the first `count` of some fixed particles hold a piece with.
 pub(super) fn pivot(p: &Particles, fixed: [usize; 3], count: usize) -> Pivot {
     let [a, b] = [fixed[0], fixed[1]].map(|i| p.x.get(i));
@@ -76,19 +84,23 @@ pub(super) fn remove_internal_momentum(world: &mut World) {
         return;
     }
     let w = &world.particles.w;
-    let (fixed, count) = fixed_particles(0..w.len(), w);
-    if count > MAX_FIXED || !compute_corrections(world) {
+    let (fixed, count) = fixed_particles(particles_near_fixed(w), w);
+    if count > MAX_FIXED || !has_corrections(world) {
         return;
     }
     if has_collider_impulse(world) {
         if count == 0 && may_add_spin(world) {
+            compute_corrections(world);
             remove_correction_momentum(world);
         }
         return;
     }
     let pivot = pivot(&world.particles, fixed, count);
     let translation = match pivot {
-        Pivot::Nothing => mean_correction(world),
+        Pivot::Nothing => {
+            compute_corrections(world);
+            mean_correction(world)
+        }
         Pivot::Point(_) | Pivot::Axis(..) => Vec3::ZERO,
     };
     compute_angular_errors(world);
@@ -156,6 +168,7 @@ pub(super) fn compute_angular_errors(world: &mut World) {
     let [x, predicted, displacement] =
         [&p.x, &scratch.predicted, &scratch.displacement].map(Columns::slices);
     let [last, v, a] = [&p.displacement, &p.v, &scratch.acceleration].map(Columns::slices);
+    scratch.correction.resize(p.len());
     let middles = scratch.relative_wind.slices_mut();
     for (axis, (middle, error)) in
         middles.into_iter().zip(scratch.correction.slices_mut()).enumerate()
@@ -166,8 +179,7 @@ pub(super) fn compute_angular_errors(world: &mut World) {
 }
 
 leveled! {
-    /// Computes one component of the positions and errors of [`compute_angular_errors`]. On entry
-    /// `error` holds the correction.
+    /// Computes one component of the positions and errors of [`compute_angular_errors`].
     fn compute_error(
         middle: &mut [f32],
         error: &mut [f32],
@@ -192,7 +204,7 @@ fn compute_error_column(
         middle.iter_mut().zip(error).zip(current.zip(before))
     {
         let start = predicted - displacement;
-        let moved = displacement + *error * share;
+        let moved = displacement + (x - predicted) * share;
         let step = moved * new_weight - last * old_weight;
         let expected = (v + a * h) * h;
         *middle = (start + x) * 0.5;
@@ -200,22 +212,24 @@ fn compute_error_column(
     }
 }
 
-/// Fills `correction` with what stages moved each particle by since prediction [m]. Returns whether
-/// any particle moved.
-pub(super) fn compute_corrections(world: &mut World) -> bool {
+/// Whether stages moved any particle since prediction.
+pub(super) fn has_corrections(world: &World) -> bool {
+    let predicted = world.scratch.predicted.slices();
+    world.particles.x.slices() != predicted
+}
+
+/// Fills `correction` with what stages moved each particle by since prediction [m].
+fn compute_corrections(world: &mut World) {
     let (p, scratch) = (&world.particles, &mut world.scratch);
     let corrections = &mut scratch.correction;
     corrections.resize(p.len());
-    let mut has_moved = false;
     let all =
         p.x.slices().into_iter().zip(scratch.predicted.slices()).zip(corrections.slices_mut());
     for ((x, predicted), corrections) in all {
         for ((x, predicted), correction) in x.iter().zip(predicted).zip(corrections) {
             *correction = x - predicted;
-            has_moved |= *correction != 0.0;
         }
     }
-    has_moved
 }
 
 /// Subtracts a rigid motion at the points `relative_wind` from all free particles. The predicted

@@ -19,8 +19,8 @@
 use crate::math::columns::Columns;
 use crate::solver::integrate::impact_momentum::{self, IMPACT};
 use crate::solver::integrate::momentum::{
-    self, MAX_FIXED, compute_angular_errors, compute_corrections, fixed_particles,
-    has_collider_impulse, may_add_spin, pivot,
+    self, MAX_FIXED, compute_angular_errors, fixed_particles, has_collider_impulse,
+    has_corrections, may_add_spin, pivot,
 };
 use crate::solver::integrate::momentum_sums::PointSums;
 use crate::solver::integrate::rigid_motion::{Pivot, RigidMotion};
@@ -131,7 +131,7 @@ enum Rounding {
 
 #[inline(never)]
 fn remove_from_pieces(world: &mut World, rounding: Rounding) {
-    if !compute_corrections(world) {
+    if !has_corrections(world) {
         return;
     }
     compute_angular_errors(world);
@@ -145,7 +145,7 @@ fn remove_from_pieces(world: &mut World, rounding: Rounding) {
 
 #[inline(never)]
 fn remove_from_groups(world: &mut World, rounding: Rounding) {
-    if !compute_corrections(world) {
+    if !has_corrections(world) {
         return;
     }
     compute_angular_errors(world);

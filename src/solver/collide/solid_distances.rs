@@ -1,0 +1,149 @@
+//! The distances of a block of particles from a solid at both ends of their paths, several particles
+//! at a time.
+//!
+//! ```text
+//! start, end                 local positions at the start of the substep and now
+//! d(start), n(start)         signed distance [m] and outward normal
+//! d(end),   n(end)
+//! ```
+//! For half spaces, spheres and capsules, whose distance takes no branches; a sphere is a capsule of
+//! length zero. A box, hulls and surfaces are measured one particle at a time.
+//!
+//! Reads positions, predicted positions and displacements of a block; writes only its own fields.
+//! Invariant: the same bits as `SignedDistance::signed_distance` of single points.
+
+use crate::geometry::collision_shape::CollisionShape;
+use crate::geometry::primitives::{Capsule, HalfSpace, Sphere};
+use crate::geometry::signed_distance::SignedDistance;
+use crate::geometry::transform::Transform;
+use crate::math::simd::{Level, leveled};
+use crate::solver::collide::distance_cull::BlockColumns;
+use crate::solver::collide::nearby_blocks::BLOCK;
+use glam::Vec3;
+
+/// A position of a particle in the local frame, with its distance from a solid.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MeasuredPoint {
+    pub at: Vec3,
+    /// The signed distance, negative inside [m].
+    pub distance: f32,
+    /// The outward normal, of length one.
+    pub normal: Vec3,
+}
+
+impl MeasuredPoint {
+    #[inline(always)]
+    pub fn new(solid: &(impl SignedDistance + ?Sized), at: Vec3) -> Self {
+        let (distance, normal) = solid.signed_distance(at);
+        Self { at, distance, normal }
+    }
+}
+
+/// The components of [`MeasuredPoint`]: position, distance, normal.
+const COMPONENTS: usize = 7;
+
+/// Measured points of the particles of a block, one column for each component.
+type MeasuredColumns = [[f32; BLOCK]; COMPONENTS];
+
+/// The paths of a block of particles: measured points at the start of the substep and now.
+pub(super) struct SolidDistances([MeasuredColumns; 2]);
+
+impl Default for SolidDistances {
+    fn default() -> Self {
+        Self([[[0.0; BLOCK]; COMPONENTS]; 2])
+    }
+}
+
+impl SolidDistances {
+    /// Measures a block of particles; `frames` are those of the collider at the start and at the end.
+    /// Returns whether it can: false for shapes that are measured one particle at a time.
+    pub fn measure(
+        &mut self,
+        level: Level,
+        shape: &CollisionShape,
+        block: BlockColumns<'_>,
+        frames: &[Transform; 2],
+    ) -> bool {
+        // In WebAssembly the size of the module counts more: this would be 2 kB of gzip.
+        if cfg!(target_arch = "wasm32") {
+            return false;
+        }
+        let Self(paths) = self;
+        match shape {
+            CollisionShape::HalfSpace(solid) => {
+                measure_half_space(level, block, frames, solid, paths);
+            }
+            CollisionShape::Sphere(Sphere { radius }) => {
+                measure_capsule(level, block, frames, &Capsule::new(0.0, *radius, *radius), paths);
+            }
+            CollisionShape::Capsule(solid) => measure_capsule(level, block, frames, solid, paths),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Returns the points at the start and now of the particle with this index in the block.
+    #[inline(always)]
+    pub fn path(&self, k: usize) -> [MeasuredPoint; 2] {
+        let Self([start, end]) = self;
+        let point = |[x, y, z, distance, nx, ny, nz]: &MeasuredColumns| MeasuredPoint {
+            at: Vec3::new(x[k], y[k], z[k]),
+            distance: distance[k],
+            normal: Vec3::new(nx[k], ny[k], nz[k]),
+        };
+        [point(start), point(end)]
+    }
+}
+
+leveled! {
+    fn measure_half_space(
+        block: BlockColumns<'_>,
+        frames: &[Transform; 2],
+        solid: &HalfSpace,
+        paths: &mut [MeasuredColumns; 2],
+    ) = measure_lanes
+}
+
+leveled! {
+    fn measure_capsule(
+        block: BlockColumns<'_>,
+        frames: &[Transform; 2],
+        solid: &Capsule,
+        paths: &mut [MeasuredColumns; 2],
+    ) = measure_lanes
+}
+
+#[inline(always)]
+fn measure_lanes(
+    block: BlockColumns<'_>,
+    frames: &[Transform; 2],
+    solid: &impl SignedDistance,
+    [start, end]: &mut [MeasuredColumns; 2],
+) {
+    let BlockColumns { x, predicted, displacement } = block;
+    for axis in 0..3 {
+        let count = x[axis].len().min(BLOCK);
+        end[axis][..count].copy_from_slice(&x[axis][..count]);
+        let moved = predicted[axis].iter().zip(displacement[axis]);
+        for (start, (predicted, displacement)) in start[axis].iter_mut().zip(moved) {
+            *start = predicted - displacement;
+        }
+    }
+    measure_points(&frames[0], solid, start);
+    measure_points(&frames[1], solid, end);
+}
+
+/// Measures points, which are in world space before and in the local frame afterwards.
+#[inline(always)]
+fn measure_points(
+    frame: &Transform,
+    solid: &impl SignedDistance,
+    [x, y, z, distance, nx, ny, nz]: &mut MeasuredColumns,
+) {
+    for k in 0..BLOCK {
+        let at = frame.point_to_local(Vec3::new(x[k], y[k], z[k]));
+        let (d, normal) = solid.signed_distance(at);
+        (x[k], y[k], z[k], distance[k]) = (at.x, at.y, at.z, d);
+        (nx[k], ny[k], nz[k]) = (normal.x, normal.y, normal.z);
+    }
+}
