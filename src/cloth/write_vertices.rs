@@ -231,12 +231,12 @@ impl VertexWriter<'_> {
                     load_of_particles(last, &self.last);
                     blend(self.level, vector, last, block.len(), self.transform.share);
                 }
-                self.transform.transform_positions(self.level, vector, normals);
+                self.transform.transform_positions(vector, normals);
                 w.fill(1.0);
             }
             Attribute::Normal => {
                 load_of_particles(vector, &self.surface.normals.slices());
-                self.transform.transform_normals(self.level, vector);
+                self.transform.transform_normals(vector);
                 w.fill(0.0);
             }
             Attribute::Tangent => {
@@ -245,7 +245,7 @@ impl VertexWriter<'_> {
                 let (sums, handedness) = tangents.columns();
                 load(vector, &sums);
                 load(core::slice::from_mut(w), &[handedness]);
-                self.transform.transform_tangents(self.level, vector, normals, w);
+                self.transform.transform_tangents(vector, normals, w);
             }
             Attribute::Uv => {
                 let [u, v, ..] = vector;

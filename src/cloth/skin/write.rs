@@ -78,7 +78,7 @@ impl Skin {
             self.evaluate_block(&cloth.world, first, with_tangents, &mut block);
             for stream in streams {
                 let attribute = stream.attribute;
-                self.load_attribute(cloth, attribute, &part, &block, transform, &mut scratch);
+                self.load_attribute(attribute, &part, &block, transform, &mut scratch);
                 scratch.write(cloth.world.level, stream, part.start - vertices.start, part.len());
             }
             first += BLOCK;
@@ -88,14 +88,13 @@ impl Skin {
     /// Loads one attribute of a part of a block into `scratch`.
     fn load_attribute(
         &self,
-        cloth: &Cloth,
         attribute: Attribute,
         part: &Range<usize>,
         block: &SkinBlock,
         transform: &VertexTransform,
         scratch: &mut BlockScratch,
     ) {
-        let (level, mesh) = (cloth.world.level, &self.mesh);
+        let mesh = &self.mesh;
         let (skipped, count) = (part.start % BLOCK, part.len());
         let load = |from: &VertexBlock, to: &mut VertexBlock| {
             for (to, from) in to.iter_mut().zip(from) {
@@ -107,18 +106,18 @@ impl Skin {
         match attribute {
             Attribute::Position => {
                 load(&block.position, vector);
-                transform.transform_positions(level, vector, normals);
+                transform.transform_positions(vector, normals);
                 w.fill(1.0);
             }
             Attribute::Normal => {
                 *vector = *normals;
-                transform.transform_normals(level, vector);
+                transform.transform_normals(vector);
                 w.fill(0.0);
             }
             Attribute::Tangent => {
                 load(&block.tangent, vector);
                 w[..count].copy_from_slice(&mesh.handedness[part.clone()]);
-                transform.transform_tangents(level, vector, normals, w);
+                transform.transform_tangents(vector, normals, w);
             }
             Attribute::Uv => {
                 let [u, v, ..] = vector;

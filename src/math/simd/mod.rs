@@ -91,6 +91,14 @@ impl Level {
         widest
     }
 
+    /// Returns whether one vector holds all lanes of a block.
+    pub fn is_wide(self) -> bool {
+        #[cfg(target_arch = "x86_64")]
+        return self == Self::Avx2;
+        #[cfg(not(target_arch = "x86_64"))]
+        false
+    }
+
     /// Detects the widest level of this CPU.
     fn widest() -> Self {
         #[cfg(target_arch = "x86_64")]

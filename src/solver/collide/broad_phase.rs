@@ -116,7 +116,7 @@ fn refresh_long_triangles(world: &mut World) {
         return;
     }
     let x = &world.particles.x;
-    let bounds = particle_bounds::of_columns(world.level, x);
+    let bounds = particle_bounds::of_columns(x);
     let entries = contacts.nearby.entries.iter();
     let near = entries.filter(|entry| entry.now.overlaps(&bounds, NEAR * world.mean_edge));
     let limit = near.fold(f32::INFINITY, |least, entry| min(entry.longest_free_edge, least));

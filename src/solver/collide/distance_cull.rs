@@ -19,6 +19,7 @@ use crate::math::simd::{Level, leveled};
 use crate::solver::collide::local_particles::LocalParticles;
 use crate::solver::collide::nearby_blocks::BLOCK;
 use core::ops::Range;
+use glam::Vec3;
 
 /// The columns of a block of particles.
 #[derive(Clone, Copy)]
@@ -97,22 +98,21 @@ fn compute_clearance_lanes(
     bound: DistanceBound,
     clearance: &mut [f32],
 ) {
-    match bound {
-        DistanceBound::HalfSpace => heights_above_plane(block.x, &frames[1], clearance),
-        DistanceBound::Below(top) => path_clearances(block, frames, clearance, |_, y, _| y - top),
-        DistanceBound::Capsule(middle, half, radius) => {
-            path_clearances(block, frames, clearance, |x, y, z| {
-                let y = max((y - middle).abs() - half, 0.0);
-                (x * x + y * y + z * z).sqrt() - radius
-            });
+    // A capsule is a box without width, less its radius.
+    let (middle, half, radius) = match bound {
+        DistanceBound::HalfSpace => return heights_above_plane(block.x, &frames[1], clearance),
+        DistanceBound::Below(top) => {
+            return path_clearances(block, frames, clearance, |_, y, _| y - top);
         }
-        DistanceBound::Box(middle, half) => path_clearances(block, frames, clearance, |x, y, z| {
-            let x = max((x - middle.x).abs() - half.x, 0.0);
-            let y = max((y - middle.y).abs() - half.y, 0.0);
-            let z = max((z - middle.z).abs() - half.z, 0.0);
-            (x * x + y * y + z * z).sqrt()
-        }),
-    }
+        DistanceBound::Capsule(middle, half, radius) => (Vec3::Y * middle, Vec3::Y * half, radius),
+        DistanceBound::Box(middle, half) => (middle, half, 0.0),
+    };
+    path_clearances(block, frames, clearance, |x, y, z| {
+        let x = max((x - middle.x).abs() - half.x, 0.0);
+        let y = max((y - middle.y).abs() - half.y, 0.0);
+        let z = max((z - middle.z).abs() - half.z, 0.0);
+        (x * x + y * y + z * z).sqrt() - radius
+    });
 }
 
 leveled! {
@@ -170,7 +170,6 @@ fn path_clearances(
 mod tests {
     use super::*;
     use crate::math::columns::Columns;
-    use glam::Vec3;
 
     #[test]
     fn heights_above_a_plane_are_the_local_heights_to_the_bit() {

@@ -1,11 +1,10 @@
-//! The bounds of all particles, in SIMD lanes.
+//! The bounds of all particles, in several lanes.
 //!
 //! Reads positions and writes nothing.
 //! Invariant: minima and maxima do not depend on the order; NaN is left out.
 
 use crate::geometry::aabb::Aabb;
 use crate::math::columns::Columns;
-use crate::math::simd::{Level, leveled};
 use crate::math::{max, min};
 use glam::Vec3;
 
@@ -13,22 +12,17 @@ use glam::Vec3;
 const LANES: usize = 8;
 
 /// Returns the smallest box around some positions [m].
-pub(super) fn of_columns(level: Level, positions: &Columns) -> Aabb {
+pub(super) fn of_columns(positions: &Columns) -> Aabb {
     let mut extremes = [[f32::INFINITY, f32::NEG_INFINITY]; 3];
     for (column, extremes) in positions.slices().into_iter().zip(&mut extremes) {
-        find_extremes(level, column, extremes);
+        find_extremes(column, extremes);
     }
     let [low, high] = [0, 1].map(|k| Vec3::from_array(extremes.map(|axis| axis[k])));
     Aabb { low, high }
 }
 
-leveled! {
-    /// Extends `extremes`, the least and the largest value so far, by a column.
-    fn find_extremes(column: &[f32], extremes: &mut [f32; 2]) = find_extremes_lanes
-}
-
-#[inline(always)]
-fn find_extremes_lanes(column: &[f32], extremes: &mut [f32; 2]) {
+/// Extends `extremes`, the least and the largest value so far, by a column.
+fn find_extremes(column: &[f32], extremes: &mut [f32; 2]) {
     let (chunks, rest) = column.as_chunks::<LANES>();
     let (mut low, mut high) = ([extremes[0]; LANES], [extremes[1]; LANES]);
     for chunk in chunks {

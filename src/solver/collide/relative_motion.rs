@@ -15,7 +15,6 @@
 //! earlier tick found.
 
 use crate::geometry::aabb::Aabb;
-use crate::math::simd::leveled;
 use crate::math::{max, min};
 use crate::model::maps::Map;
 use crate::solver::collide::body_motion::BodyMotion;
@@ -87,23 +86,16 @@ fn has_longer_displacement(world: &World, length: f32) -> bool {
         return true;
     }
     let speed = length / world.settings.tick;
-    let mut is_one_faster = false;
-    any_faster(world.level, world.particles.v.slices(), speed * speed, &mut is_one_faster);
-    is_one_faster
+    is_one_faster(world.particles.v.slices(), speed * speed)
 }
 
-leveled! {
-    /// Sets `is_one_faster` if the square of a velocity is above `speed2` [m²/s²].
-    fn any_faster(v: [&[f32]; 3], speed2: f32, is_one_faster: &mut bool) = any_faster_lanes
-}
-
-#[inline(always)]
-fn any_faster_lanes([x, y, z]: [&[f32]; 3], speed2: f32, is_one_faster: &mut bool) {
+/// Returns whether the square of a velocity is above `speed2` [m²/s²].
+fn is_one_faster([x, y, z]: [&[f32]; 3], speed2: f32) -> bool {
     let mut found = 0_u32;
     for ((x, y), z) in x.iter().zip(y).zip(z) {
         found |= u32::from(x * x + y * y + z * z > speed2);
     }
-    *is_one_faster |= found != 0;
+    found != 0
 }
 
 /// Returns the largest ratio of a relative path to the step of its body, and at least `least`.

@@ -6,12 +6,12 @@
 //! ```
 //! Method: normals use the cofactor matrix, which is the inverse transpose up to a factor, so that
 //! non-uniform scale keeps them normal. Blocks of `BLOCK` vertices stay in the cache and vectorise.
+//! They take so little time that wider vectors are not worth a second copy of the code.
 //!
 //! Reads columns of positions, normals and tangent sums; writes blocks (`VertexBlock`).
 //! Invariant: an identity transform without offset keeps the bits of its input.
 
 use crate::math::pack::{BLOCK, FloatBlock};
-use crate::math::simd::{Level, leveled};
 use glam::{Affine3, DMat3, Mat3, Vec3};
 
 /// One vector per vertex of a block, as columns x, y, z.
@@ -83,37 +83,36 @@ impl VertexTransform {
     }
 
     /// Transforms positions `x` in place; `normals` are those of the cloth, used for the offset.
-    pub fn transform_positions(&self, level: Level, x: &mut VertexBlock, normals: &VertexBlock) {
+    pub fn transform_positions(&self, x: &mut VertexBlock, normals: &VertexBlock) {
         if self.is_offset() {
             let distance = if self.flip { -self.offset } else { self.offset };
-            add(level, x, normals, distance);
+            add(x, normals, distance);
         }
         if let Some(transform) = &self.transform {
-            transform_points(level, x, transform);
+            transform_points(x, transform);
         }
     }
 
     /// Transforms normals of the cloth in place.
-    pub fn transform_normals(&self, level: Level, normals: &mut VertexBlock) {
+    pub fn transform_normals(&self, normals: &mut VertexBlock) {
         if self.flip {
-            negate(level, normals);
+            negate(normals);
         }
         if let Some(matrices) = &self.directions {
-            transform_directions(level, normals, &matrices.normals);
+            transform_directions(normals, &matrices.normals);
         }
     }
 
     /// Transforms tangent sums to unit tangents in place; `normals` are those of the cloth.
     pub fn transform_tangents(
         &self,
-        level: Level,
         sums: &mut VertexBlock,
         normals: &VertexBlock,
         handedness: &mut FloatBlock,
     ) {
-        orthogonalize(level, sums, normals);
+        orthogonalize(sums, normals);
         if let Some(matrices) = &self.directions {
-            transform_directions(level, sums, &matrices.tangents);
+            transform_directions(sums, &matrices.tangents);
         }
         if self.flip != self.directions.is_some_and(|matrices| matrices.is_mirror) {
             handedness.iter_mut().for_each(|sign| *sign = -*sign);
@@ -148,32 +147,20 @@ pub(crate) fn gather(to: &mut [FloatBlock], columns: &[&[f32]], at: &[u32]) {
     }
 }
 
-leveled! {
-    fn add(x: &mut VertexBlock, along: &VertexBlock, distance: f32) = add_lanes
-}
-
-#[inline(always)]
-fn add_lanes(x: &mut VertexBlock, along: &VertexBlock, distance: f32) {
+#[inline(never)]
+fn add(x: &mut VertexBlock, along: &VertexBlock, distance: f32) {
     for (x, along) in x.as_flattened_mut().iter_mut().zip(along.as_flattened()) {
         *x += *along * distance;
     }
 }
 
-leveled! {
-    fn negate(v: &mut VertexBlock) = negate_lanes
-}
-
-#[inline(always)]
-fn negate_lanes(v: &mut VertexBlock) {
+#[inline(never)]
+fn negate(v: &mut VertexBlock) {
     v.as_flattened_mut().iter_mut().for_each(|x| *x = -*x);
 }
 
-leveled! {
-    fn transform_points(v: &mut VertexBlock, by: &Affine3) = transform_points_lanes
-}
-
-#[inline(always)]
-fn transform_points_lanes([x, y, z]: &mut VertexBlock, by: &Affine3) {
+#[inline(never)]
+fn transform_points([x, y, z]: &mut VertexBlock, by: &Affine3) {
     let [a, b, c] = [by.matrix3.x_axis, by.matrix3.y_axis, by.matrix3.z_axis];
     let t = by.translation;
     for k in 0..BLOCK {
@@ -184,12 +171,8 @@ fn transform_points_lanes([x, y, z]: &mut VertexBlock, by: &Affine3) {
     }
 }
 
-leveled! {
-    fn transform_directions(v: &mut VertexBlock, by: &Mat3) = transform_directions_lanes
-}
-
-#[inline(always)]
-fn transform_directions_lanes([x, y, z]: &mut VertexBlock, by: &Mat3) {
+#[inline(never)]
+fn transform_directions([x, y, z]: &mut VertexBlock, by: &Mat3) {
     let [a, b, c] = [by.x_axis, by.y_axis, by.z_axis];
     for k in 0..BLOCK {
         let (px, py, pz) = (x[k], y[k], z[k]);
@@ -202,14 +185,10 @@ fn transform_directions_lanes([x, y, z]: &mut VertexBlock, by: &Mat3) {
     }
 }
 
-leveled! {
-    fn orthogonalize(t: &mut VertexBlock, normals: &VertexBlock) = orthogonalize_lanes
-}
-
 /// Makes directions orthogonal to the normals and of unit length (Gram–Schmidt). If nothing of a
 /// direction remains, the x or z axis replaces it, whichever is less parallel to the normal.
-#[inline(always)]
-fn orthogonalize_lanes([x, y, z]: &mut VertexBlock, [nx, ny, nz]: &VertexBlock) {
+#[inline(never)]
+fn orthogonalize([x, y, z]: &mut VertexBlock, [nx, ny, nz]: &VertexBlock) {
     /// Share of the squared length below which the orthogonal part is rounding error.
     const ROUNDING: f32 = 1.0e-10;
     for k in 0..BLOCK {
