@@ -60,14 +60,6 @@ pub(super) fn fixed_particles(
     (fixed, count)
 }
 
-/// The particles of a cloth but for long runs of free ones.
-fn particles_near_fixed(w: &[f32]) -> impl Iterator<Item = usize> {
-    const RUN: usize = 64;
-    let has_fixed = |run: &[f32]| run.iter().filter(|w| **w <= 0.0).count() > 0;
-    let runs = w.chunks(RUN).enumerate().filter(move |(_, run)| has_fixed(run));
-    runs.flat_map(|(at, run)| at * RUN..at * RUN + run.len())
-}
-
 /// What the first `count` of some fixed particles hold a piece with.
 pub(super) fn pivot(p: &Particles, fixed: [usize; 3], count: usize) -> Pivot {
     let [a, b] = [fixed[0], fixed[1]].map(|i| p.x.get(i));
@@ -84,7 +76,7 @@ pub(super) fn remove_internal_momentum(world: &mut World) {
         return;
     }
     let w = &world.particles.w;
-    let (fixed, count) = fixed_particles(particles_near_fixed(w), w);
+    let (fixed, count) = fixed_particles(0..w.len(), w);
     if count > MAX_FIXED || !has_corrections(world) {
         return;
     }
