@@ -71,7 +71,8 @@ impl Capsule {
         if difference.abs() >= 2.0 * half_height {
             let (middle, radius) =
                 if bottom > top { (-half_height, bottom) } else { (half_height, top) };
-            return Self { middle, half_height: 0.0, radius, taper: 0.0, slope: 0.0 };
+            // The taper gives the normal at the center: that of `Sphere`.
+            return Self { middle, half_height: 0.0, radius, taper: 1.0, slope: 0.0 };
         }
         let taper = difference / (2.0 * half_height);
         let slope = taper / (1.0 - taper * taper).sqrt();
@@ -113,15 +114,9 @@ impl SignedDistance for Capsule {
         let PlacedSphere { center, radius } = self.closest_sphere(p);
         let r = p - center;
         let length = r.length();
-        // On the axis any normal of the cone is right; a sphere has the same one as `Sphere`.
+        // On the axis any normal of the cone is right.
         let any_normal = || Vec3::new((1.0 - self.taper * self.taper).sqrt(), self.taper, 0.0);
-        let out = if length > 0.0 {
-            r * (1.0 / length)
-        } else if self.half_height > 0.0 {
-            any_normal()
-        } else {
-            Vec3::Y
-        };
+        let out = if length > 0.0 { r * (1.0 / length) } else { any_normal() };
         (length - radius, out)
     }
 }

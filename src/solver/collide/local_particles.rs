@@ -279,7 +279,7 @@ impl LocalParticles<'_> {
 
     /// Moves particle `i` out of a penetration at the end of its `path`, with friction, and records
     /// the contact.
-    #[inline(never)]
+    #[cfg_attr(not(target_arch = "wasm32"), inline(never))]
     pub fn push_out(&mut self, i: usize, path: &[Vec3; 2], penetration: &Penetration) {
         let correction = self.correction(([i; 3], [1.0, 0.0, 0.0]), *path, *penetration);
         self.apply_local_correction(i, path[1], *penetration, correction);
