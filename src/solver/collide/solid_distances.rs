@@ -135,3 +135,52 @@ fn measure_points(
         (nx[k], ny[k], nz[k]) = (normal.x, normal.y, normal.z);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::columns::Columns;
+
+    #[test]
+    fn blocks_have_the_bits_of_single_points() {
+        let count = 51;
+        let wave = |i: usize, k: f32| (i as f32 * k).sin();
+        let mut columns = [(); 3].map(|()| Columns::default());
+        for (column, scale) in columns.iter_mut().zip([1.0, 1.0, 0.05]) {
+            (0..count).for_each(|i| {
+                column.push(Vec3::new(wave(i, 1.13), wave(i, 2.31), wave(i, 0.77)) * scale);
+            });
+        }
+        // The center of the sphere and of the capsule.
+        columns[0].set(7, Vec3::new(0.1, -0.4, 0.3));
+        let [x, predicted, displacement] = &columns;
+        let block = BlockColumns {
+            x: x.slices(),
+            predicted: predicted.slices(),
+            displacement: displacement.slices(),
+        };
+        let turned = Transform {
+            origin: Vec3::new(0.1, -0.4, 0.3),
+            axes: [Vec3::new(0.6, -0.8, 0.0), Vec3::new(0.8, 0.6, 0.0), Vec3::Z],
+        };
+        let frames = [Transform { origin: Vec3::new(0.0, -0.3, 0.3), ..turned }, turned];
+        let sphere = Sphere { radius: 0.4 };
+        let capsule = Capsule::new(0.3, 0.2, 0.1);
+        let solids: [(&dyn SignedDistance, Capsule); 2] =
+            [(&sphere, Capsule::new(0.0, 0.4, 0.4)), (&capsule, capsule)];
+        for (solid, as_capsule) in solids {
+            for level in Level::available() {
+                let mut distances = SolidDistances::default();
+                measure_capsule(level, block, &frames, &as_capsule, &mut distances.0);
+                for i in 0..count {
+                    let world = [predicted.get(i) - displacement.get(i), x.get(i)];
+                    for (k, measured) in distances.path(i).into_iter().enumerate() {
+                        let at = frames[k].point_to_local(world[k]);
+                        let one = MeasuredPoint::new(solid, at);
+                        assert_eq!(format!("{measured:?}"), format!("{one:?}"), "{i} {level:?}");
+                    }
+                }
+            }
+        }
+    }
+}
