@@ -79,7 +79,7 @@ impl App {
     pub fn new(mut settings: Settings, clock: fn() -> f64) -> Result<Self> {
         settings.clamp();
         let mut scene = scene::build(&settings, false)?;
-        scene::settle(&mut scene, &settings, false)?;
+        scene::start::settle(&mut scene, &settings, false)?;
         Ok(Self {
             scene,
             camera: Camera::new(scene::camera_rig(settings.scene)),
@@ -450,7 +450,7 @@ impl App {
 
     fn rebuild_scene(&mut self, settings: &Settings) -> Result<()> {
         self.scene = scene::build(settings, self.reduced_motion)?;
-        scene::settle(&mut self.scene, settings, self.reduced_motion)?;
+        scene::start::settle(&mut self.scene, settings, self.reduced_motion)?;
         self.set_clocks();
         if settings.scene != self.settings.scene {
             self.camera.reset_to_rig(scene::camera_rig(settings.scene), self.screen.aspect());
