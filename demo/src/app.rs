@@ -32,8 +32,6 @@ use crate::surfaces::{self, WireframeLines};
 const LONGEST_FRAME: f32 = 0.1;
 /// Simulation time per frame above which the sheet does not collide with itself [ms].
 const SLOW_SIMULATION: f32 = 10.0;
-/// Period of [`FrameScene::time`], so that it stays exact [s].
-const TIME_PERIOD: f32 = 3600.0;
 
 /// The running demo with one of the cloth scenes.
 pub struct App {
@@ -461,13 +459,6 @@ impl App {
         Ok(())
     }
 
-    /// Advances the time of what moves by itself: halos and dust.
-    fn pass_time(&mut self, seconds: f32) {
-        if !self.reduced_motion && !self.is_photo {
-            self.time = (self.time + seconds) % TIME_PERIOD;
-        }
-    }
-
     fn set_clocks(&mut self) {
         let clock = self.times_stages.then_some(self.clock);
         self.scene.cloths.iter_mut().for_each(|cloth| cloth.set_clock(clock));
@@ -490,6 +481,7 @@ impl App {
     }
 }
 
+mod animation;
 mod hint;
 pub mod photo;
 mod walkway;

@@ -103,7 +103,7 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
             radius: 1.5..=12.0,
             start: [0.18, 1.14, 3.3],
             half_width: 1.45,
-            upright: Some(UprightView { start: [1.05, 0.98], half_width: 1.02 }),
+            upright: Some(UprightView { start: [1.22, 0.90], half_width: 0.86 }),
             ..usual
         },
         SceneKind::Curtain => CameraRig {
@@ -117,6 +117,7 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
             radius: 2.0..=12.0,
             start: [0.35, 1.36, 3.9],
             half_width: 1.2,
+            upright: Some(UprightView { start: [0.35, 1.36], half_width: 0.56 }),
             ..usual
         },
     }
