@@ -26,7 +26,7 @@ const float LAMP = 0.10; // width of the penumbra per metre from the caster
 float casterDistance(vec3 s) {
     float sum = 0.0;
     float count = 0.0;
-    vec2 towards = vec2(0.14 / radius, 0.0);
+    vec2 towards = 0.14 / radius * noiseDirection();
     for (int i = 0; i < 16; i++) {
         float d = texture(depths, s.xy + sqrt((float(i) + 0.5) / 16.0) * towards).r;
         towards = GOLDEN * towards;

@@ -166,7 +166,7 @@ void main() {
     float slope = sqrt(max(1.0 - nl * nl, 0.0));
     float side = nl >= 0.0 ? 1.0 : -1.0;
     float lit = keyVisibility(at + n * side * (0.014 + 0.035 * slope), 1, 2.4, 0.0002);
-    float open = skyLight(at + n * 0.07, n, 1.6);
+    float open = skyLight(at + n * 0.07, n, vec2(2.0), 2);
     open = crease * (0.30 + 0.70 * smoothstep(0.0, 1.0, open));
 
     vec3 light = albedo * (ambientLight(rough, open) + keyColour * lit * max(nl, 0.0));
