@@ -35,10 +35,14 @@ vec3 outward() {
     return toWorld(vec3(n.x, (place.w * 2.0 - 1.0) * sin(turn), n.y));
 }
 
+// Distance from the eye to the end of the capsule, along the view [m].
+float distanceToEnd() {
+    return (clipFromWorld * vec4(mix(from, to, place.w), 1.0)).w;
+}
+
 // Radius that a capsule is drawn with [m].
 float drawnRadius() {
-    float away = (clipFromWorld * vec4(mix(from, to, place.w), 1.0)).w;
-    return bevel < 0.0 ? max(radius, leastRadius * away) : radius;
+    return max(radius, leastRadius * distanceToEnd());
 }
 
 vec3 surfacePosition() {

@@ -11,7 +11,7 @@ uniform float floorHeight;
 
 centroid in vec3 at;
 centroid in vec3 facing;
-in float coverage;
+in float thinness;
 layout (location = 0) out vec4 colour;
 
 float lobe(vec3 n, vec3 v, vec3 l, float sharp) {
@@ -19,8 +19,9 @@ float lobe(vec3 n, vec3 v, vec3 l, float sharp) {
 }
 
 void main() {
-    vec3 n = normalize(facing);
     vec3 v = normalize(eye - at);
+    // Normals that turn away within a pixel would give each one another colour.
+    vec3 n = normalize(mix(normalize(facing), v, clamp(thinness, 0.0, 1.0)));
     float nl = max(dot(n, keyTowards), 0.0);
     float slope = sqrt(max(1.0 - nl * nl, 0.0));
     float lit = keyVisibility(at + n * (0.012 + 0.03 * slope), 2, 1.5, 0.0008);
@@ -34,6 +35,6 @@ void main() {
     light += dome * (albedo * 0.6 + fresnel * 0.5);
     // The reflection fades with height over the floor.
     float cover = mirrored > 0.5 ? 0.75 * exp(-1.9 * max(at.y - floorHeight, 0.0)) : 1.0;
-    cover *= coverage;
+    cover /= max(thinness, 1.0);
     colour = vec4(limited(light) * dim, cover);
 }
