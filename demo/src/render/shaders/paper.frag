@@ -170,6 +170,8 @@ void main() {
     open = crease * (0.30 + 0.70 * smoothstep(0.0, 1.0, open));
 
     vec3 light = albedo * (ambientLight(rough, open) + keyColour * lit * max(nl, 0.0));
+    // The light ground reflects the key light to what faces down.
+    light += albedo * keyColour * 0.40 * max(-n.y, 0.0) * open;
     // Transmitted light: warmer, and less where there is ink on either side.
     float through = max(-dot(n, keyTowards), 0.0) * lit;
     light += mix(PAPER, INK, 0.45 * max(here, behind)) * keyColour * through * vec3(0.36, 0.33, 0.28);
