@@ -153,20 +153,10 @@ fn set_stored_pose(cloth: &mut Cloth, reduced_motion: bool) -> Result<()> {
 }
 
 #[cfg(test)]
-#[allow(dead_code)]
-#[path = "../../../tests/common/crossings.rs"]
-mod crossings;
-
-#[cfg(test)]
-fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
-    cloth.indices().chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect()
-}
-
-#[cfg(test)]
 mod tests {
     use super::super::build;
-    use super::crossings::crossing_count;
     use super::*;
+    use crate::crossings::crossing_count;
 
     #[test]
     fn the_ticks_before_the_first_frame_leave_no_more_stretch_than_later_ones() {
