@@ -90,6 +90,7 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
             radius: 1.5..=12.0,
             start: [0.30, 1.24, 3.9],
             half_width: 1.35,
+            upright: Some(UprightView { start: [0.90, 1.05], half_width: 0.95 }),
             ..usual
         },
         SceneKind::Doorway => CameraRig {
