@@ -32,8 +32,6 @@ use crate::surfaces::{self, WireframeLines};
 const LONGEST_FRAME: f32 = 0.1;
 /// Simulation time per frame above which the sheet does not collide with itself [ms].
 const SLOW_SIMULATION: f32 = 10.0;
-/// Period of [`FrameScene::time`], so that it stays exact [s].
-const TIME_PERIOD: f32 = 3600.0;
 
 /// The running demo with one of the cloth scenes.
 pub struct App {
@@ -79,7 +77,7 @@ impl App {
     pub fn new(mut settings: Settings, clock: fn() -> f64) -> Result<Self> {
         settings.clamp();
         let mut scene = scene::build(&settings, false)?;
-        scene::settle(&mut scene, &settings, false)?;
+        scene::start::settle(&mut scene, &settings, false)?;
         Ok(Self {
             scene,
             camera: Camera::new(scene::camera_rig(settings.scene)),
@@ -450,7 +448,7 @@ impl App {
 
     fn rebuild_scene(&mut self, settings: &Settings) -> Result<()> {
         self.scene = scene::build(settings, self.reduced_motion)?;
-        scene::settle(&mut self.scene, settings, self.reduced_motion)?;
+        scene::start::settle(&mut self.scene, settings, self.reduced_motion)?;
         self.set_clocks();
         if settings.scene != self.settings.scene {
             self.camera.reset_to_rig(scene::camera_rig(settings.scene), self.screen.aspect());
@@ -459,13 +457,6 @@ impl App {
         self.is_photo = false;
         self.generation = self.generation.wrapping_add(1);
         Ok(())
-    }
-
-    /// Advances the time of what moves by itself: halos and dust.
-    fn pass_time(&mut self, seconds: f32) {
-        if !self.reduced_motion && !self.is_photo {
-            self.time = (self.time + seconds) % TIME_PERIOD;
-        }
     }
 
     fn set_clocks(&mut self) {
@@ -490,6 +481,7 @@ impl App {
     }
 }
 
+mod animation;
 mod hint;
 pub mod photo;
 mod walkway;

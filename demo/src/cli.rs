@@ -104,6 +104,7 @@ pub fn parse(args: impl IntoIterator<Item = String>) -> Result<Task, String> {
                 continue;
             }
             "--times" => shot.times = true,
+            "--fabrics" => shot.fabrics = true,
             "--strip" => shot.strip = frames(&value()?)?,
             other if shot.receipt.is_some() => {
                 let Some(receipt) = &mut shot.receipt else { continue };

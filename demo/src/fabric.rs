@@ -108,7 +108,7 @@ impl Fabric {
         match self {
             Self::Silk => Appearance {
                 front: 0x839bf0,
-                back: 0xa0b4fa,
+                back: 0x8aa2f4,
                 saturation: 0.90,
                 threads: [0xb4c2ff, 0xd6dcff],
                 seam: (0x6f7fbf, 0.30),
@@ -117,7 +117,7 @@ impl Fabric {
                 weave: 0.0,
                 gloss: [0.13, 0.42, 0.18, 1.3],
                 fuzz: 0.16,
-                transmission: 1.0,
+                transmission: 0.55,
                 print: Print::None,
             },
             Self::Cotton => Appearance {

@@ -19,6 +19,8 @@ pub mod app;
 pub mod blade;
 pub mod camera;
 pub mod controls;
+#[cfg(test)]
+mod crossings;
 pub mod fabric;
 pub mod gesture;
 pub mod meter;

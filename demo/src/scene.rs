@@ -8,8 +8,7 @@
 //! Invariant: clamped settings always build a scene.
 
 pub mod solids;
-
-use std::f32::consts::TAU;
+pub mod start;
 
 use glam::{Vec2, Vec3};
 use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, SelfCollision, Wind};
@@ -44,16 +43,6 @@ const CLEARANCE: f32 = 0.006;
 const GARMENT_SPACING: f32 = 0.04;
 /// Fabrics of the discs.
 const DISC_FABRICS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
-/// Most ticks before the first frame, and most ticks times particles, so that a fine cloth does
-/// not start late.
-const SETTLING_TICKS: u32 = 110;
-const SETTLING_WORK: u32 = 180_000;
-/// Substeps, and iterations in each, of the sheet in these ticks, which decide how long a page
-/// takes to start; the last ones have those of the settings, so that it does not start stretched.
-const SETTLING_STEPS: [u32; 2] = [2, 3];
-const FIRM_TICKS: u32 = 12;
-/// Factor of the wind in the gust before the first frame.
-const GUST: f32 = 1.9;
 /// Most particles of a sheet that keeps from itself in real time, also on a page, and the distance
 /// between its layers [m].
 const MAX_SELF_COLLIDING: u32 = 2500;
@@ -101,6 +90,7 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
             radius: 1.5..=12.0,
             start: [0.30, 1.24, 3.9],
             half_width: 1.35,
+            upright: Some(UprightView { start: [0.90, 1.05], half_width: 0.95 }),
             ..usual
         },
         SceneKind::Doorway => CameraRig {
@@ -114,7 +104,7 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
             radius: 1.5..=12.0,
             start: [0.18, 1.14, 3.3],
             half_width: 1.45,
-            upright: Some(UprightView { start: [1.05, 0.98], half_width: 1.02 }),
+            upright: Some(UprightView { start: [1.22, 0.90], half_width: 0.86 }),
             ..usual
         },
         SceneKind::Curtain => CameraRig {
@@ -128,6 +118,7 @@ pub fn camera_rig(scene: SceneKind) -> CameraRig {
             radius: 2.0..=12.0,
             start: [0.35, 1.36, 3.9],
             half_width: 1.2,
+            upright: Some(UprightView { start: [0.35, 1.36], half_width: 0.56 }),
             ..usual
         },
     }
@@ -217,7 +208,7 @@ fn sheet(settings: &Settings) -> Result<Cloth> {
         SceneKind::Glass => GlassBalls::add_balls(&mut cloth)?,
         // The rips are cut while the flag is flat, and the wind folds it.
         SceneKind::Storm => TornFlag::rip(&mut cloth)?,
-        _ => fold_at_start(&mut cloth, settings)?,
+        _ => start::fold(&mut cloth, settings)?,
     }
     Ok(cloth)
 }
@@ -260,88 +251,6 @@ fn pin_mode(pinning: Pinning) -> PinMode {
         Pinning::TopCorners => PinMode::TopCorners,
         Pinning::Corners => PinMode::Corners,
     }
-}
-
-/// Sets the start positions: every row follows the curve of [`pleats`].
-fn fold_at_start(cloth: &mut Cloth, settings: &Settings) -> Result<()> {
-    let places = pleats(settings);
-    for particle in 0..cloth.particle_count() {
-        let place = places[particle as usize % places.len()];
-        let height = cloth.positions()[particle as usize].y;
-        cloth.set_position(particle, Vec3::new(place.x, height, place.y))?;
-    }
-    Ok(())
-}
-
-/// Returns x and z of the particles of a row at the start: folds for the sheet, an arch between its
-/// corners, waves for the flag.
-///
-/// The arc length of the curve equals the length of the row, so no link is stretched. A function
-/// gives the direction of the curve by arc length, and the positions are its running sum.
-fn pleats(settings: &Settings) -> Vec<Vec2> {
-    let columns = grid_size(settings).map_or(1, |[columns, _]| columns);
-    let step = spacing(settings);
-    let direction = |u: f32| match (settings.scene, settings.pinning) {
-        // Depth and phase vary, so that no two folds are alike.
-        (SceneKind::Sheet, Pinning::TopEdge) => {
-            let depth = 0.66 + 0.20 * (1.3 * TAU * u + 1.0).sin();
-            let phase = 4.3 * u + 0.20 * (TAU * u).sin() + 0.10 * (2.3 * TAU * u).cos();
-            depth * (TAU * phase).sin()
-        }
-        (SceneKind::Flag, _) => 0.7 * u.sqrt() * (TAU * 1.6 * u).sin(),
-        _ => 0.75 * (1.0 - 2.0 * u),
-    };
-    let mut curve = vec![Vec2::ZERO];
-    for i in 1..columns {
-        let turn = direction((i as f32 - 0.5) / (columns - 1) as f32);
-        curve.push(curve[i as usize - 1] + Vec2::from_angle(turn) * step);
-    }
-    let start = match settings.scene {
-        SceneKind::Flag => Vec2::new(Flag::HOIST.x, Flag::HOIST.z),
-        _ => -0.5 * (curve[0] + curve[columns as usize - 1]),
-    };
-    curve.iter().map(|place| *place + start).collect()
-}
-
-/// Runs the ticks before the first frame, so that sheet and flags do not start in the folds that
-/// they were made with; they end in a gust. With `reduced_motion` there is none.
-///
-/// # Errors
-/// As [`Cloth::set_wind`] and [`Cloth::set_settings`]; what a scene has causes none.
-pub fn settle(
-    instance: &mut SceneInstance,
-    settings: &Settings,
-    reduced_motion: bool,
-) -> Result<()> {
-    if !matches!(settings.scene, SceneKind::Sheet | SceneKind::Flag | SceneKind::Storm) {
-        return Ok(());
-    }
-    // Self-collision would take most of the time here, and hardly changes the drape.
-    let live = instance.cloths[0].settings().clone();
-    drop_self_collision(instance, settings)?;
-    let particles = instance.cloths[0].particle_count().max(1);
-    let ticks = (SETTLING_WORK / particles).min(SETTLING_TICKS);
-    let gust = ticks / 3;
-    let firm = instance.cloths[0].settings().clone();
-    // Flags would take no less: they limit the stretch more often.
-    if settings.scene == SceneKind::Sheet {
-        let [substeps, iterations] = SETTLING_STEPS;
-        let iterations = firm.iterations.min(iterations);
-        instance.cloths[0].set_settings(muslin::Settings {
-            substeps,
-            iterations,
-            ..firm.clone()
-        })?;
-    }
-    instance.step(ticks - gust);
-    let wind = instance.cloths[0].wind().clone();
-    let factor = if reduced_motion { 1.0 } else { GUST };
-    instance.cloths[0].set_wind(Wind { velocity: wind.velocity * factor, ..wind.clone() })?;
-    instance.step(gust.saturating_sub(FIRM_TICKS));
-    instance.cloths[0].set_settings(firm)?;
-    instance.step(gust.min(FIRM_TICKS));
-    instance.cloths[0].set_wind(wind)?;
-    instance.cloths[0].set_settings(live)
 }
 
 /// Lets the layers of the sheet pass through each other: a machine that is too slow for it moves
@@ -442,25 +351,6 @@ mod tests {
                     assert!(off.fold(0.0, f32::max) < 2.0, "{scene:?} is off the stage");
                 }
             }
-        }
-    }
-
-    #[test]
-    fn the_ticks_before_the_first_frame_leave_no_more_stretch_than_later_ones() {
-        for scene in [SceneKind::Sheet, SceneKind::Flag] {
-            let settings = Settings { scene, ..Settings::default() };
-            let mut instance = build(&settings, false).unwrap();
-            let live = instance.cloths[0].settings().clone();
-            settle(&mut instance, &settings, false).unwrap();
-            assert_eq!(instance.cloths[0].settings(), &live);
-            let stretch = |instance: &SceneInstance| instance.cloths[0].stats().max_stretch;
-            let first = stretch(&instance);
-            let later = (0..60).map(|_| {
-                instance.step(1);
-                stretch(&instance)
-            });
-            let most = later.fold(0.0, f32::max);
-            assert!(first < 1.3 * most, "{scene:?}: {first}, later at most {most}");
         }
     }
 

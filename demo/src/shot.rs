@@ -14,6 +14,7 @@ use glam::Vec2;
 
 use crate::app::App;
 use crate::camera::Camera;
+use crate::fabric::Fabric;
 use crate::gesture::{Gesture, GesturePlayer};
 use crate::headless::Headless;
 use crate::meter::StageTime;
@@ -34,6 +35,8 @@ pub struct Shot {
     pub play: Option<Gesture>,
     /// Number of frames side by side.
     pub strip: u32,
+    /// Whether to draw one frame with each fabric, and one of the receipt, instead of a strip.
+    pub fabrics: bool,
     /// Whether every tick is drawn and timed.
     pub times: bool,
     /// Values of the controls.
@@ -64,6 +67,7 @@ impl Default for Shot {
             ticks: 240,
             play: None,
             strip: 1,
+            fabrics: false,
             times: false,
             settings: Settings::default(),
             orbit: Vec2::ZERO,
@@ -95,6 +99,9 @@ impl Shot {
     /// [`crate::headless::NoContext`] if there is no OpenGL context, or the error of the cloth or
     /// the driver.
     pub fn take(&self) -> Result<Picture, Failure> {
+        if self.fabrics {
+            return self.take_fabrics();
+        }
         let headless = Headless::new()?;
         let mut subject: Box<dyn ShotSubject> = match &self.receipt {
             None => Box::new(self.start_cloth(Renderer::new(&headless.context)?)?),
@@ -138,6 +145,25 @@ impl Shot {
             strip.times = subject.times();
         }
         Ok(strip)
+    }
+
+    /// Draws the scene with each fabric, and then the receipt, side by side.
+    fn take_fabrics(&self) -> Result<Picture, Failure> {
+        let cloth = |fabric| {
+            let settings = Settings { fabric, ..self.settings.clone() };
+            Self { settings, fabrics: false, strip: 1, receipt: None, ..self.clone() }
+        };
+        let mut shots: Vec<_> = Fabric::ALL.into_iter().map(cloth).collect();
+        shots.push(Self { receipt: Some(ReceiptShot::default()), ..cloth(Fabric::Silk) });
+        let [width, height] = self.size;
+        let mut row = Picture::black([width * shots.len() as u32, height]);
+        for (i, shot) in (0..).zip(shots) {
+            let frame = shot.take()?;
+            let pixels: Vec<_> =
+                frame.rgb.as_chunks::<3>().0.iter().map(|&[r, g, b]| [r, g, b, 255]).collect();
+            row.copy_frame(i * width, self.size, &pixels);
+        }
+        Ok(row)
     }
 
     /// Creates the cloth scene, runs the ticks before the gesture, and starts the gesture.

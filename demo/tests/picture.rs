@@ -238,6 +238,24 @@ fn the_figure_is_dressed_and_walks() {
     assert!(difference(&first, &later) > 0.01, "the figure does not walk");
 }
 
+#[test]
+fn fabrics_and_paper_differ_side_by_side() {
+    let row = take(&Shot { size: [120, 160], ticks: 30, fabrics: true, ..Shot::default() });
+    assert_eq!(row.size, [600, 160]);
+    // Silk is blue, cotton light, denim dark, nylon printed; paper hangs before a light ground.
+    let mean = |i: usize, channel: usize| {
+        let rows = row.rgb.chunks_exact(3 * 600).skip(70).take(10);
+        let middle =
+            rows.flat_map(|row| (120 * i + 50..120 * i + 70).map(|x| row[3 * x + channel]));
+        middle.map(u32::from).sum::<u32>() / 200
+    };
+    assert!(mean(0, 2) > mean(0, 0) + 30, "silk: {} {}", mean(0, 0), mean(0, 2));
+    assert!(mean(1, 0) > 150 && mean(1, 0) > mean(1, 2), "cotton: {}", mean(1, 0));
+    assert!(mean(2, 1) < 110, "denim: {}", mean(2, 1));
+    assert!(mean(3, 0) > 120, "nylon: {}", mean(3, 0));
+    assert!((0..3).all(|channel| mean(4, channel) > 120), "paper: {}", mean(4, 1));
+}
+
 fn receipt(play: Option<receipt::gestures::ReceiptGesture>, strip: u32) -> Picture {
     let receipt = ReceiptShot { play, small: true, ..ReceiptShot::default() };
     let ticks = 60 + play.map_or(0, receipt::gestures::ReceiptGesture::ticks);

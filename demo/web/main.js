@@ -198,13 +198,14 @@ function listenToKeys(demo, changed) {
   });
 }
 
-/** Returns how far overlays reach into the canvas from left and bottom. */
+/** Returns how far overlays reach into the canvas from left and bottom; on a phone the panel is at the bottom. */
 function insets() {
   if (document.body.classList.contains("photo")) return [0, 0];
-  const isBeside = !NARROW.matches && !by("panel").classList.contains("closed");
-  const help = by("help");
+  const [panel, help] = ["panel", "help"].map(by);
+  const isOpen = !panel.classList.contains("closed");
+  if (isOpen && NARROW.matches) return [0, innerHeight - panel.offsetTop];
   const bottom = help.classList.contains("gone") ? FOOTER : help.offsetHeight + HELP_BOTTOM;
-  return [isBeside ? PANEL_WIDTH : 0, innerHeight < LOW ? 0 : bottom];
+  return [isOpen ? PANEL_WIDTH : 0, innerHeight < LOW ? 0 : bottom];
 }
 
 /** Returns the middle of what overlays leave free of the canvas. */
@@ -226,15 +227,15 @@ function connectInsets(demo) {
 
 function connectOverlays() {
   const [panel, collapse, help, ask] = ["panel", "collapse", "help", "ask"].map(by);
+  // On a narrow screen both would be in the same place.
   const setPanelOpen = (on) => {
+    if (on && NARROW.matches) showHelp(false);
     panel.classList.toggle("closed", !on);
     collapse.setAttribute("aria-expanded", String(on));
   };
   collapse.addEventListener("click", () => setPanelOpen(panel.classList.contains("closed")));
-  NARROW.addEventListener("change", () => setPanelOpen(!NARROW.matches));
-  setPanelOpen(!NARROW.matches);
-
   const showHelp = (on) => {
+    if (on && NARROW.matches) setPanelOpen(false);
     help.classList.toggle("gone", !on);
     ask.setAttribute("aria-expanded", String(on));
   };
@@ -245,6 +246,8 @@ function connectOverlays() {
     showHelp(false);
   });
   help.addEventListener("touched", () => showHelp(false));
+  NARROW.addEventListener("change", () => setPanelOpen(!NARROW.matches));
+  setPanelOpen(!NARROW.matches);
   showHelp(true);
 }
 

@@ -8,6 +8,7 @@ import {
   checkShareMetadata,
   distance,
   hash,
+  particle,
   settings,
   stats,
   visit,
@@ -208,6 +209,8 @@ test("on a phone every target is at least 44 pixels high and wide", async () => 
   const phone = { viewport: { width: 390, height: 844 }, hasTouch: true };
   const { context, page, complaints } = await visitRunning(phone);
   await page.locator("#collapse").tap();
+  const { y: top } = await page.locator("#panel").boundingBox();
+  await waitUntil(page, () => particle(page, 40 * 40 - 1), ([, y]) => y < top, "the panel covers a corner");
   const targets = page.locator("button:visible, #controls .segments label, #controls input[type=range], summary, footer a");
   assert.ok((await targets.count()) > 30);
   for (const target of await targets.all()) {

@@ -1,12 +1,8 @@
 //! Tests of the effect of pointers, gestures and time on the receipt.
 
-#[allow(dead_code)]
-#[path = "../../../tests/common/crossings.rs"]
-mod crossings;
-
 use super::gestures::{ReceiptGesture, ReceiptGesturePlayer};
 use super::*;
-use crossings::crossing_count;
+use crate::crossings::crossing_count;
 use muslin_scenes::receipt::FLOOR;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -42,10 +38,6 @@ fn played_for(gesture: ReceiptGesture, sheet: Sheet, ticks: u32) -> ReceiptApp {
         play.step(&mut app).unwrap();
     }
     app
-}
-
-fn triangles(cloth: &Cloth) -> Vec<[u32; 3]> {
-    cloth.indices().chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect()
 }
 
 /// Mean speed of all particles, in units per second.

@@ -14,7 +14,7 @@ use three_d::{Context, CoreError, Program, RenderStates};
 use super::glsl::glsl;
 use super::light::{FLOOR, linear};
 use super::mesh::{Detail, Mesh};
-use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
+use super::pass::{ALPHA_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 use crate::fabric::Appearance;
 
@@ -98,7 +98,7 @@ impl ClothMaterial {
     ) {
         self.prepare(pass, mesh, shadows, albedo, As::Reflection);
         self.program.use_uniform("dim", 1.0_f32);
-        let states = RenderStates { blend: REFLECTION_BLEND, ..RenderStates::default() };
+        let states = RenderStates { blend: ALPHA_BLEND, ..RenderStates::default() };
         self.program.draw_elements(states, pass.viewport, mesh.triangles(Detail::Coarse));
     }
 

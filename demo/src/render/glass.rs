@@ -47,7 +47,7 @@ impl Glass {
         let away = |ball: &Solid| ball.from.distance(pass.view.eye);
         balls.sort_by(|a, b| away(b).total_cmp(&away(a)));
         for ball in balls {
-            let triangles = solids.place(p, pass.clip_from_world, ball);
+            let triangles = solids.place(p, pass.clip_from_world, ball, 0.0);
             p.use_uniform("mirrored", 0.0_f32);
             p.use_uniform("eye", to_gl_vector(pass.view.eye));
             p.use_uniform("centre", to_gl_vector(ball.from));

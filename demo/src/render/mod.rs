@@ -66,7 +66,8 @@ pub struct FrameScene<'a> {
     pub rain: Option<glam::Vec3>,
     /// Fraction of the output pixels to draw along each side; the result is scaled up.
     pub resolution_scale: f32,
-    /// Whether to draw one sample per pixel, for slow machines.
+    /// Whether to draw one sample per pixel, for slow machines; the first such frame has no
+    /// reflections and no dust.
     pub is_low: bool,
 }
 
@@ -197,15 +198,19 @@ impl Renderer {
         };
         let shadows = [&self.shadow, &self.rim_shadow];
         let halos = halo::halos(&frame.view, frame.time);
+        // Their programs and pipelines are compiled when they are first drawn.
+        let is_plain = frame.is_low && !self.has_drawn;
         let dim = if frame.wireframe { 0.16 } else { 1.0 };
         target
             .samples
             .clear(ClearState::color_and_depth(0.0, 0.0, 0.0, 1.0, 1.0))
             .write::<CoreError>(|| {
                 self.sky.draw(&pass, &self.quad);
-                self.solids.draw_reflection(&pass, &self.shadow, frame.solids);
-                for (cloth, albedo) in cloths() {
-                    self.cloth.draw_reflection(&pass, &cloth.mesh, shadows, albedo);
+                if !is_plain {
+                    self.solids.draw_reflection(&pass, &self.shadow, frame.solids);
+                    for (cloth, albedo) in cloths() {
+                        self.cloth.draw_reflection(&pass, &cloth.mesh, shadows, albedo);
+                    }
                 }
                 self.ground.draw(
                     &pass,
@@ -226,7 +231,9 @@ impl Renderer {
                     }
                 }
                 self.glow.draw(&pass, &self.quad, &halos);
-                self.dust.draw(&pass, frame.time);
+                if !is_plain {
+                    self.dust.draw(&pass, frame.time);
+                }
                 if let Some(velocity) = frame.rain {
                     self.dust.draw_rain(&pass, velocity, frame.time)?;
                 }

@@ -17,8 +17,8 @@ use three_d::{
 use super::light::Lights;
 use crate::camera::CameraView;
 
-/// Blending of the reflection over the backdrop.
-pub(super) const REFLECTION_BLEND: Blend = Blend::Enabled {
+/// Blending by the alpha of what is drawn over what is opaque.
+pub(super) const ALPHA_BLEND: Blend = Blend::Enabled {
     source_rgb_multiplier: BlendMultiplierType::SrcAlpha,
     source_alpha_multiplier: BlendMultiplierType::Zero,
     destination_rgb_multiplier: BlendMultiplierType::OneMinusSrcAlpha,

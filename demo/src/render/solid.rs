@@ -17,7 +17,7 @@ use three_d::{
 
 use super::glsl::glsl;
 use super::light::{FLOOR, linear};
-use super::pass::{REFLECTION_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
+use super::pass::{ALPHA_BLEND, RenderPass, to_gl_matrix, to_gl_vector};
 use super::shadow::ShadowMap;
 
 /// A capsule, or a cylinder with bevelled edges.
@@ -85,6 +85,9 @@ const COARSE: [u32; 2] = [12, 3];
 const REFLECTED: f32 = 1.6;
 /// A solid with a smaller radius gets the coarse mesh [m].
 const THIN: f32 = 0.03;
+/// Least radius that a capsule is drawn with [px]: thinner wires would break into dots. It is drawn the
+/// more transparent for that.
+const LEAST_PIXELS: f32 = 0.6;
 
 impl Solids {
     /// Creates the mesh and compiles the shaders.
@@ -116,7 +119,7 @@ impl Solids {
 
     /// Draws the mirror images below the floor; the floor is blended over them later.
     pub(super) fn draw_reflection(&self, pass: &RenderPass, shadow: &ShadowMap, solids: &[Solid]) {
-        let states = RenderStates { blend: REFLECTION_BLEND, ..RenderStates::default() };
+        let states = RenderStates { blend: ALPHA_BLEND, ..RenderStates::default() };
         let eye = pass.view.eye.with_y(2.0 * FLOOR - pass.view.eye.y);
         let clip = pass.lights.key.clip_from_world();
         let near: Vec<_> = solids.iter().copied().filter(is_reflected).collect();
@@ -148,8 +151,12 @@ impl Solids {
         [dim, mirrored]: [f32; 2],
     ) {
         let p = &self.program;
+        let least = least_radius(pass);
         for solid in solids {
-            let triangles = self.place(p, pass.clip_from_world, solid);
+            let triangles = self.place(p, pass.clip_from_world, solid, least);
+            let is_thin = solid.radius < THIN;
+            let states =
+                if is_thin { RenderStates { blend: ALPHA_BLEND, ..states } } else { states };
             p.use_uniform("eye", to_gl_vector(eye));
             p.use_uniform("dim", dim);
             p.use_uniform("mirrored", mirrored);
@@ -168,17 +175,19 @@ impl Solids {
     pub(super) fn draw_depth(&self, clip_from_world: Mat4, viewport: Viewport, solids: &[Solid]) {
         let states = RenderStates { write_mask: WriteMask::DEPTH, ..RenderStates::default() };
         for solid in solids.iter().filter(|solid| !solid.is_glass) {
-            let triangles = self.place(&self.depth, clip_from_world, solid);
+            let triangles = self.place(&self.depth, clip_from_world, solid, 0.0);
             self.depth.draw_elements(states, viewport, triangles);
         }
     }
 
-    /// Sets the uniforms of a solid, and returns the triangles to draw.
+    /// Sets the uniforms of a solid, and returns the triangles to draw. A capsule is drawn with a
+    /// radius of at least `least` [m] times its distance.
     pub(super) fn place(
         &self,
         program: &Program,
         clip_from_world: Mat4,
         solid: &Solid,
+        least: f32,
     ) -> &ElementBuffer<u32> {
         let along = (solid.to - solid.from).normalize_or(Vec3::Y);
         let across = along.any_orthonormal_vector();
@@ -186,6 +195,7 @@ impl Solids {
         program.use_uniform("from", to_gl_vector(solid.from));
         program.use_uniform("to", to_gl_vector(solid.to));
         program.use_uniform("radius", solid.radius);
+        program.use_uniform("leastRadius", least);
         program.use_uniform("bevel", solid.bevel.unwrap_or(-1.0));
         program.use_uniform("across", to_gl_vector(across));
         program.use_uniform("along", to_gl_vector(along));
@@ -193,6 +203,11 @@ impl Solids {
         program.use_vertex_attribute("place", &shell.corners);
         &shell.triangles
     }
+}
+
+/// Returns the radius of [`LEAST_PIXELS`] at a distance of 1 m [m].
+fn least_radius(pass: &RenderPass) -> f32 {
+    LEAST_PIXELS / pass.view.focal_length_pixels(pass.viewport.height as f32)
 }
 
 /// Whether any of a solid is near enough to the floor to be seen in it.

@@ -12,7 +12,7 @@ use muslin_scenes::{
     Curtain, Doorway, Drapes, Flag, GlassBalls, HangingSheet, SceneInstance, SheetOnBall, Walker,
 };
 
-use super::pleats;
+use super::start::pleats;
 use crate::render::light::FLOOR;
 use crate::render::solid::Solid;
 use crate::scene_kind::SceneKind;

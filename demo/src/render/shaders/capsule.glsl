@@ -5,6 +5,7 @@ uniform vec3 to;
 uniform vec3 across;
 uniform vec3 along;
 uniform float radius;
+uniform float leastRadius; // of a capsule that is one metre away [m]
 uniform float bevel; // edge radius of a cylinder; below 0: capsule
 in vec4 place; // unit direction, index of the end
 
@@ -34,9 +35,19 @@ vec3 outward() {
     return toWorld(vec3(n.x, (place.w * 2.0 - 1.0) * sin(turn), n.y));
 }
 
+// Distance from the eye to the end of the capsule, along the view [m].
+float distanceToEnd() {
+    return (clipFromWorld * vec4(mix(from, to, place.w), 1.0)).w;
+}
+
+// Radius that a capsule is drawn with [m].
+float drawnRadius() {
+    return max(radius, leastRadius * distanceToEnd());
+}
+
 vec3 surfacePosition() {
     vec3 end = mix(from, to, place.w);
-    if (bevel < 0.0) return end + toWorld(place.xyz) * radius;
+    if (bevel < 0.0) return end + toWorld(place.xyz) * drawnRadius();
     float inside = (radius - bevel) * (1.0 - max(2.0 * latitude() - 1.0, 0.0));
     return end + toWorld(vec3(radialDirection().x, 0.0, radialDirection().y)) * inside + outward() * bevel;
 }

@@ -121,7 +121,7 @@ void main() {
     float broad = satin(n, t, b, keyTowards, v, min(2.6 * width, 0.9));
     float shine = gloss.z * (1.0 - 0.6 * undone);
     light += key * albedo * max(nl, 0.0) / PI;
-    light += key * shine * (sharp * mix(vec3(1.0), thread, 0.25) + 0.8 * broad * thread);
+    light += key * shine * (sharp * mix(vec3(1.0), thread, 0.25) + 0.5 * broad * thread);
     light += key * max(nl, 0.0) * (fibres.x + 0.12 * undone) * mix(vec3(1.0), thread, 0.5) * fuzz(dot(n, h), max(nl, 0.0), nv);
     // Light through the cloth is dyed by it, and more so where it passes at a slant (Beer-Lambert).
     float slant = 1.0 / clamp(-nl, 0.25, 1.0);
@@ -135,12 +135,14 @@ void main() {
     float rl = dot(n, rimTowards);
     vec3 rim = rimColour * rimVisibility(at + smoothN * (dot(smoothN, rimTowards) >= 0.0 ? 0.03 : -0.03));
     float edge = pow(1.0 - nv, 3.0);
-    light += rim * (albedo * max(rl, 0.0) / PI * 0.28 * open + min(0.15 + 0.25 * gloss.w, 0.45) * edge * smoothstep(-0.2, 0.6, rl));
+    light += rim * (albedo * max(rl, 0.0) / PI * 0.16 * open + min(0.15 + 0.25 * gloss.w, 0.45) * edge * smoothstep(-0.2, 0.6, rl));
     light += rim * open * 1.2 * shine * mix(vec3(1.0), thread, 0.25) * satin(n, t, b, rimTowards, v, 1.2 * width);
     light += rim * 0.12 * max(-rl, 0.0) * fibres.y * albedo * albedo;
 
     // Hemisphere light of sky and floor, and reflections of the environment.
     vec3 dome = mix(vec3(0.050, 0.046, 0.066), vec3(0.105, 0.130, 0.235), 0.5 + 0.5 * n.y);
+    // The room behind the stage is blue.
+    dome += vec3(0.040, 0.085, 0.165) * max(-n.z, 0.0);
     light += albedo * dome * openTint * (1.0 + 0.3 * ridge);
     vec3 mirror = reflect(-v, normalize(mix(n, smoothN, 0.3)));
     light += studio(mirror) * gloss.w * (0.05 + 0.40 * pow(1.0 - nv, 4.0)) * open;

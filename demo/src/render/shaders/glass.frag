@@ -14,8 +14,8 @@ uniform vec3 highColour;
 uniform float floorHeight;
 uniform float dim;
 
-in vec3 at;
-in vec3 facing;
+centroid in vec3 at;
+centroid in vec3 facing;
 layout (location = 0) out vec4 colour;
 
 // The haze of the backdrop in a direction, as in `sky.frag`.

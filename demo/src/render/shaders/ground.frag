@@ -24,9 +24,11 @@ const float LAMP = 0.10; // width of the penumbra per metre from the caster
 
 // Mean distance from the casters of the key light [m]; 0 if there are none.
 float casterDistance(vec3 s) {
+    // Beyond the map nothing is cast.
+    if (any(lessThan(s.xy, vec2(0.0))) || any(greaterThan(s.xy, vec2(1.0)))) return 0.0;
     float sum = 0.0;
     float count = 0.0;
-    vec2 towards = vec2(0.14 / radius, 0.0);
+    vec2 towards = 0.14 / radius * noiseDirection();
     for (int i = 0; i < 16; i++) {
         float d = texture(depths, s.xy + sqrt((float(i) + 0.5) / 16.0) * towards).r;
         towards = GOLDEN * towards;
@@ -39,6 +41,10 @@ float casterDistance(vec3 s) {
 }
 
 void main() {
+    vec2 p = at.xz - centre.xz;
+    float r2 = dot(p, p);
+    float fade = 1.0 - smoothstep(1.8, 7.5, sqrt(r2));
+    if (fade <= 0.0) discard;
     vec3 v = normalize(eye - at);
     vec3 s = (shadowFromWorld * vec4(at, 1.0)).xyz * 0.5 + 0.5;
     float lit = 1.0;
@@ -62,8 +68,6 @@ void main() {
         lit *= 1.0 - 0.55 * inside;
         gathered += inside * (2.6 * exp(-q * 16.0) + 0.35 * smoothstep(0.45, 0.95, q)) * lit;
     }
-    vec2 p = at.xz - centre.xz;
-    float r2 = dot(p, p);
     float pool = exp(-0.16 * r2);
     vec3 albedo = vec3(0.066, 0.070, 0.092);
     vec3 light = albedo * keyColour * keyTowards.y * pool * 0.80 * (0.04 + 0.96 * lit + gathered);
@@ -80,7 +84,6 @@ void main() {
         vec3 off = to - mirror * max(dot(to, mirror), 0.0);
         light += haloTints[i] * exp(-dot(off, off) * 5.0 / (halos[i].w * halos[i].w)) * (0.2 + 0.8 * fresnel) * 0.55;
     }
-    float fade = 1.0 - smoothstep(1.8, 7.5, sqrt(r2));
     float cover = fade * mix(0.86, 0.55, fresnel);
     colour = vec4(light, cover);
 }

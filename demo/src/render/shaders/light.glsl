@@ -12,14 +12,18 @@ uniform sampler2DShadow shadowMap;
 // 1979) is sqrt((i + 0.5) / n) times a direction that has turned `i` times.
 const mat2 GOLDEN = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
+// Direction that varies from pixel to pixel: gradient noise (Jimenez, SIGGRAPH 2014).
+vec2 noiseDirection() {
+    float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    return vec2(cos(turn), sin(turn));
+}
+
 // Visibility of the key light through a disc of `radius` in the shadow map, around the projected
-// point `s`. Each pixel turns the disc by gradient noise (Jimenez, SIGGRAPH 2014), so that no steps
-// show.
+// point `s`. Each pixel turns the disc, so that no steps show.
 float softVisibility(vec3 s, float radius, float bias) {
     vec2 border = min(s.xy, 1.0 - s.xy);
     if (min(border.x, border.y) <= 0.0 || s.z >= 1.0) return 1.0;
-    float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-    vec2 towards = radius * vec2(cos(turn), sin(turn));
+    vec2 towards = radius * noiseDirection();
     float lit = 0.0;
     for (int i = 0; i < 24; i++) {
         vec2 at = s.xy + sqrt((float(i) + 0.5) / 24.0) * towards;

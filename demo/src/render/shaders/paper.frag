@@ -166,10 +166,12 @@ void main() {
     float slope = sqrt(max(1.0 - nl * nl, 0.0));
     float side = nl >= 0.0 ? 1.0 : -1.0;
     float lit = keyVisibility(at + n * side * (0.014 + 0.035 * slope), 1, 2.4, 0.0002);
-    float open = skyLight(at + n * 0.07, n, 1.6);
+    float open = skyLight(at + n * 0.07, n, vec2(2.0), 2);
     open = crease * (0.30 + 0.70 * smoothstep(0.0, 1.0, open));
 
     vec3 light = albedo * (ambientLight(rough, open) + keyColour * lit * max(nl, 0.0));
+    // The light ground reflects the key light to what faces down.
+    light += albedo * keyColour * 0.40 * max(-n.y, 0.0) * open;
     // Transmitted light: warmer, and less where there is ink on either side.
     float through = max(-dot(n, keyTowards), 0.0) * lit;
     light += mix(PAPER, INK, 0.45 * max(here, behind)) * keyColour * through * vec3(0.36, 0.33, 0.28);

@@ -40,7 +40,7 @@ void main() {
     }
     float open = 1.0;
     if (length(at - middle) < radius + 2.0) {
-        open = 0.28 + 0.72 * skyLight(at + vec3(0.0, 0.03, 0.0), vec3(0.0, 1.0, 0.0), 7.0);
+        open = 0.28 + 0.72 * skyLight(at + vec3(0.0, 0.03, 0.0), vec3(0.0, 1.0, 0.0), 14.0 * noiseDirection(), 4);
     }
     vec3 light = GROUND * (ambientLight(vec3(0.0, 1.0, 0.0), open) + keyColour * lit * keyTowards.y);
     float fade = smoothstep(9.0, 34.0, length(at.xz));

@@ -34,7 +34,7 @@ float noise(vec2 p) {
 // before they alias; `unseen` returns the variance of the slopes that have faded.
 vec2 weave(vec2 m, float footprint, out float unseen) {
     vec2 t = m * cloth.x;
-    float near = 1.0 - smoothstep(0.24, 0.56, footprint * cloth.x);
+    float near = 1.0 - smoothstep(0.18, 0.42, footprint * cloth.x);
     unseen = 0.25 * cloth.y * cloth.y * (1.0 - near);
     vec2 bump = vec2(0.0);
     if (near > 0.0) {
@@ -97,8 +97,8 @@ vec3 fabricColour(bool front, vec2 uv, float footprint, out float hem) {
         // Denim: uneven indigo along the warp, and white weft between the ridges.
         float streak = noise(vec2(m.x * 210.0, m.y * 3.0)) - 0.5;
         float fade = noise(m * 2.6 + 11.0) - 0.5;
-        c *= 1.0 + 0.40 * streak * (1.0 - smoothstep(0.003, 0.02, footprint)) + 0.34 * fade;
-        float near = 1.0 - smoothstep(0.24, 0.56, footprint * cloth.x);
+        c *= 1.0 + (front ? 0.40 : 0.16) * streak * (1.0 - smoothstep(0.003, 0.02, footprint)) + 0.34 * fade;
+        float near = 1.0 - smoothstep(0.18, 0.42, footprint * cloth.x);
         float ridge = 0.5 + 0.5 * sin(PI * (m.x + m.y) * cloth.x);
         vec3 white = vec3(0.50, 0.54, 0.62);
         c = mix(c, front ? white : frontAlbedo, near * 0.34 * (1.0 - ridge));
