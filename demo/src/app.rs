@@ -311,7 +311,7 @@ impl App {
         self.meter.record_frame(seconds);
         self.resolution_scaler.record_frame(seconds);
         if self.meter.milliseconds() > SLOW_SIMULATION {
-            scene::drop_self_collision(&mut self.scene, &self.settings)?;
+            scene::self_collision::drop(&mut self.scene, &self.settings)?;
         }
         Ok(())
     }
@@ -423,7 +423,7 @@ impl App {
     /// Returns the numbers of particles across and down the sheet; `None` for discs and clothes,
     /// which are no grid.
     pub fn grid_size(&self) -> Option<[u32; 2]> {
-        scene::grid_size(&self.settings)
+        scene::grid::grid_size(&self.settings)
     }
 
     /// Returns the position of a particle of the first cloth, in drawn metres.
@@ -469,7 +469,7 @@ impl App {
         let pick = PickContext {
             unit,
             view: self.camera.view().scaled(unit),
-            spacing: scene::spacing(&self.settings),
+            spacing: scene::grid::spacing(&self.settings),
             span: scene::span(&self.settings),
             blade: self.blade || self.settings.blade,
             afterglow: &mut self.afterglow,

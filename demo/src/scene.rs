@@ -7,11 +7,13 @@
 //!
 //! Invariant: clamped settings always build a scene.
 
+pub mod grid;
+pub mod self_collision;
 pub mod solids;
 pub mod start;
 
 use glam::{Vec2, Vec3};
-use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, SelfCollision, Wind};
+use muslin::{Cloth, ColliderDesc, Material, PinMode, Result, Wind};
 use muslin_scenes::disc::Disc;
 use muslin_scenes::figure::garments::SKIRT_SPAN;
 use muslin_scenes::{
@@ -24,6 +26,7 @@ use crate::fabric::{self, Appearance, Fabric};
 use crate::render::light::FLOOR;
 use crate::scene_kind::SceneKind;
 use crate::settings::{Pinning, Settings};
+use grid::{across_disc, grid_size, spacing};
 
 /// Air speed of the hanging sheet at wind 1 [m/s].
 const SHEET_WIND: f32 = 1.3;
@@ -39,26 +42,8 @@ const DRAPED_WIND: f32 = 0.6;
 const DISC_WIND: f32 = 0.25;
 /// Height of the floor collider over the drawn floor, which avoids z-fighting [m].
 const CLEARANCE: f32 = 0.006;
-/// Distance between neighbouring particles of the clothes, on average [m].
-const GARMENT_SPACING: f32 = 0.04;
 /// Fabrics of the discs.
 const DISC_FABRICS: [Fabric; 3] = [Fabric::Silk, Fabric::Cotton, Fabric::Denim];
-/// Most particles of a sheet that keeps from itself in real time, also on a page, and the distance
-/// between its layers [m].
-const MAX_SELF_COLLIDING: u32 = 2500;
-const SELF_DISTANCE: f32 = 0.004;
-
-/// Returns the numbers of particles across and down; `None` for discs and clothes, which are no grid.
-pub fn grid_size(settings: &Settings) -> Option<[u32; 2]> {
-    match settings.scene {
-        SceneKind::Sheet | SceneKind::Ball | SceneKind::Glass => Some([settings.resolution; 2]),
-        SceneKind::Flag | SceneKind::Storm => Some(Flag::grid_size(settings.resolution)),
-        SceneKind::Curtain => Some(Curtain::grid_size(settings.resolution)),
-        SceneKind::Doorway => Some(Doorway::grid_size(settings.resolution)),
-        SceneKind::Discs | SceneKind::Figure => None,
-    }
-}
-
 /// Returns the length in the simulation of one drawn metre [m].
 pub fn unit(scene: SceneKind) -> f32 {
     match scene {
@@ -130,21 +115,6 @@ pub fn rain(settings: &Settings) -> Option<Vec3> {
     (settings.scene == SceneKind::Storm).then(|| 0.7 * wind + Vec3::NEG_Y * RAIN)
 }
 
-/// Returns the distance between neighbouring particles [m].
-pub fn spacing(settings: &Settings) -> f32 {
-    let across = match settings.scene {
-        SceneKind::Sheet => HangingSheet::SIZE,
-        SceneKind::Flag | SceneKind::Storm => Flag::SIZE.x,
-        SceneKind::Ball => SheetOnBall::SIZE,
-        SceneKind::Glass => GlassBalls::SIZE,
-        SceneKind::Doorway => return Doorway::spacing(settings.resolution),
-        SceneKind::Curtain => Curtain::SIZE.x,
-        SceneKind::Discs => return Drapes::RADIUS / Disc::rings(across_disc(settings)) as f32,
-        SceneKind::Figure => return GARMENT_SPACING,
-    };
-    across / (settings.resolution - 1) as f32
-}
-
 /// Returns width and height of a cloth, in drawn metres.
 pub fn span(settings: &Settings) -> Vec2 {
     if settings.scene == SceneKind::Figure {
@@ -192,10 +162,7 @@ fn sheet(settings: &Settings) -> Result<Cloth> {
     desc.material = settings.fabric.material();
     // The stiffness control sets up to twelve iterations per substep, so four substeps are enough.
     desc.settings.substeps = 4;
-    if settings.scene == SceneKind::Sheet && desc.columns * desc.rows <= MAX_SELF_COLLIDING {
-        desc.settings.self_collision = SelfCollision::Surface;
-        desc.settings.self_distance = SELF_DISTANCE;
-    }
+    self_collision::set(&mut desc, settings);
     let mut cloth = match settings.scene {
         SceneKind::Flag | SceneKind::Storm => {
             Flag::hoist(&desc, settings.pinning != Pinning::TopEdge)?
@@ -235,11 +202,6 @@ fn figure(settings: &Settings) -> Result<SceneInstance> {
     Ok(instance)
 }
 
-/// Number of particles across a disc: two thirds of the resolution, because there are three discs.
-fn across_disc(settings: &Settings) -> u32 {
-    (2 * settings.resolution).div_ceil(3)
-}
-
 fn add_floor(cloth: &mut Cloth) -> Result<()> {
     let position = Vec3::Y * (FLOOR + CLEARANCE);
     cloth.add_collider(&ColliderDesc { position, ..ColliderDesc::default() }).map(|_| ())
@@ -251,20 +213,6 @@ fn pin_mode(pinning: Pinning) -> PinMode {
         Pinning::TopCorners => PinMode::TopCorners,
         Pinning::Corners => PinMode::Corners,
     }
-}
-
-/// Lets the layers of the sheet pass through each other: a machine that is too slow for it moves
-/// better so.
-///
-/// # Errors
-/// As [`Cloth::set_settings`]; the settings of a scene cause none.
-pub fn drop_self_collision(instance: &mut SceneInstance, settings: &Settings) -> Result<()> {
-    let cloth = &mut instance.cloths[0];
-    let live = cloth.settings().clone();
-    if settings.scene != SceneKind::Sheet || live.self_collision == SelfCollision::None {
-        return Ok(());
-    }
-    cloth.set_settings(muslin::Settings { self_collision: SelfCollision::None, ..live })
 }
 
 /// Applies the settings to all cloths; `reduced_motion` weakens gusts, wander and turbulence of the

@@ -98,9 +98,9 @@ fn surface<'a>(
     // A finer mesh has other indices, also where the topology of the cloth is the same.
     let revision = lines.revision.unwrap_or_default() | u64::from(refine);
     let weave = Weave {
-        spacing: scene::spacing(settings),
+        spacing: scene::grid::spacing(settings),
         unit: scene::unit(settings.scene),
-        is_grid: scene::grid_size(settings).is_some(),
+        is_grid: scene::grid::grid_size(settings).is_some(),
         refine,
     };
     smooth.update(&cloth.view(), weave, revision);

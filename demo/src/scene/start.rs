@@ -13,7 +13,8 @@ use glam::{Vec2, Vec3};
 use muslin::{Cloth, Result, Wind};
 use muslin_scenes::{Flag, SceneInstance};
 
-use super::{drop_self_collision, grid_size, spacing};
+use super::grid::{grid_size, spacing};
+use super::self_collision;
 use crate::fabric::Fabric;
 use crate::scene_kind::SceneKind;
 use crate::settings::{Pinning, Settings};
@@ -99,7 +100,7 @@ pub fn settle(
     }
     // Self-collision would take most of the time here, and hardly changes the drape.
     let live = instance.cloths[0].settings().clone();
-    drop_self_collision(instance, settings)?;
+    self_collision::drop(instance, settings)?;
     let particles = instance.cloths[0].particle_count().max(1);
     let ticks = (SETTLING_WORK / particles).min(SETTLING_TICKS);
     let gust = ticks / 3;
