@@ -26,6 +26,7 @@ The demo of Muslin: a hanging sheet to pull, blow at and tear, and a receipt to 
     --play GESTURE    hands play in the last of them: tear, yank or cut; --tear is --play tear;
                       with tender: fold, letter, crumple or toss
     --strip N         a film strip: N pictures of that size side by side (1)
+    --fabrics         the sheet in each fabric, and the receipt, side by side
     --times           draw every tick, and say what the stages of a frame take, and how many there
                       are a second
     --orbit X,Y       drag the camera, in heights of the screen (0,0, or as a gesture is seen best)

@@ -38,7 +38,7 @@ const COVERAGE: [&str; 4] = [
 
 /// Step `fuzz`: runs the seeds and some sequences that the fuzzer derives from them.
 pub fn test_briefly() -> Result {
-    // Building takes longer than running: with little optimisation both take half as long.
+    // Building takes longer than running: with little optimisation the step takes a quarter less.
     fuzz_from_seeds(BRIEF_RUNS, &["--config=profile.sanitized.package.muslin.opt-level=1"])
 }
 

@@ -6,7 +6,7 @@
 //! ```
 //! Method: normals use the cofactor matrix, which is the inverse transpose up to a factor, so that
 //! non-uniform scale keeps them normal. Blocks of `BLOCK` vertices stay in the cache and vectorise.
-//! They take so little time that wider vectors are not worth a second copy of the code.
+//! They are compiled once, for the vectors that every CPU has: a second copy would be larger.
 //!
 //! Reads columns of positions, normals and tangent sums; writes blocks (`VertexBlock`).
 //! Invariant: an identity transform without offset keeps the bits of its input.
