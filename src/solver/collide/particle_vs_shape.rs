@@ -49,7 +49,7 @@ pub(super) fn solve_blocks(
 ) {
     let count = particles.w.len();
     let (bound, largest_gap) = (shape.distance_bound(), particles.largest_gap());
-    let mut distances = SolidDistances::of(level, shape);
+    let mut distances = SolidDistances::default();
     for block in blocks {
         let first = *block as usize * BLOCK;
         let range = first..(first + BLOCK).min(count);
@@ -58,19 +58,17 @@ pub(super) fn solve_blocks(
         if !may_touch {
             continue;
         }
-        if let Some(distances) = &mut distances {
-            distances.measure(level, BlockColumns::of(particles, &range), &particles.frames);
-        }
+        let block = BlockColumns::of(particles, &range);
+        let is_measured = distances.measure(level, shape, block, &particles.frames);
         for i in range.clone() {
             // The comparison is false for NaN, so that NaN is tested.
             if particles.w[i] <= 0.0 || clearance[i] > largest_gap {
                 continue;
             }
-            match &distances {
-                Some(distances) => {
-                    solve_measured(shape, particles, distances.path(i - range.start), i);
-                }
-                None => solve_particle(shape, particles, candidates, i),
+            if is_measured {
+                solve_measured(shape, particles, distances.path(i - range.start), i);
+            } else {
+                solve_particle(shape, particles, candidates, i);
             }
         }
     }

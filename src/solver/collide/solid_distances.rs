@@ -46,39 +46,43 @@ const COMPONENTS: usize = 7;
 type MeasuredColumns = [[f32; BLOCK]; COMPONENTS];
 
 /// The paths of a block of particles: measured points at the start of the substep and now.
-pub(super) struct SolidDistances {
-    solid: Capsule,
-    paths: [MeasuredColumns; 2],
+pub(super) struct SolidDistances([MeasuredColumns; 2]);
+
+impl Default for SolidDistances {
+    fn default() -> Self {
+        Self([[[0.0; BLOCK]; COMPONENTS]; 2])
+    }
 }
 
 impl SolidDistances {
-    /// Makes room for the paths near a shape; `None` where particles are measured one at a time.
-    pub fn of(level: Level, shape: &CollisionShape) -> Option<Self> {
+    /// Measures a block of particles; `frames` are those of the collider at the start and at the end.
+    /// Returns whether it can: false for shapes that are measured one particle at a time.
+    pub fn measure(
+        &mut self,
+        level: Level,
+        shape: &CollisionShape,
+        block: BlockColumns<'_>,
+        frames: &[Transform; 2],
+    ) -> bool {
         // With four lanes less is gained, and in WebAssembly it would cost 2 kB of gzip.
         if !level.is_wide() {
-            return None;
+            return false;
         }
-        let solid = match shape {
-            CollisionShape::Sphere(Sphere { radius }) => Capsule::new(0.0, *radius, *radius),
-            CollisionShape::Capsule(solid) => *solid,
-            _ => return None,
-        };
-        Some(Self::new(solid))
-    }
-
-    fn new(solid: Capsule) -> Self {
-        Self { solid, paths: [[[0.0; BLOCK]; COMPONENTS]; 2] }
-    }
-
-    /// Measures a block of particles; `frames` are those of the collider at the start and at the end.
-    pub fn measure(&mut self, level: Level, block: BlockColumns<'_>, frames: &[Transform; 2]) {
-        measure_capsule(level, block, frames, &self.solid, &mut self.paths);
+        let Self(paths) = self;
+        match shape {
+            CollisionShape::Sphere(Sphere { radius }) => {
+                measure_capsule(level, block, frames, &Capsule::new(0.0, *radius, *radius), paths);
+            }
+            CollisionShape::Capsule(solid) => measure_capsule(level, block, frames, solid, paths),
+            _ => return false,
+        }
+        true
     }
 
     /// Returns the points at the start and now of the particle with this index in the block.
     #[inline(always)]
     pub fn path(&self, k: usize) -> [MeasuredPoint; 2] {
-        let [start, end] = &self.paths;
+        let Self([start, end]) = self;
         let point = |[x, y, z, distance, nx, ny, nz]: &MeasuredColumns| MeasuredPoint {
             at: Vec3::new(x[k], y[k], z[k]),
             distance: distance[k],
@@ -167,8 +171,8 @@ mod tests {
             [(&sphere, Capsule::new(0.0, 0.4, 0.4)), (&capsule, capsule)];
         for (solid, as_capsule) in solids {
             for level in Level::available() {
-                let mut distances = SolidDistances::new(as_capsule);
-                distances.measure(level, block, &frames);
+                let mut distances = SolidDistances::default();
+                measure_capsule(level, block, &frames, &as_capsule, &mut distances.0);
                 for i in 0..count {
                     let world = [predicted.get(i) - displacement.get(i), x.get(i)];
                     for (k, measured) in distances.path(i).into_iter().enumerate() {
