@@ -85,8 +85,8 @@ fn copy_sources() -> Result<PathBuf> {
         }
     }
     files::copy_dir(&files::root().join("docs/site"), &work)?;
-    let poster = files::root().join("demo/web/sheet.png");
-    std::fs::copy(poster, work.join("poster.png")).during(|| "copying the poster".into())?;
+    let poster = files::root().join("demo/web/share-sheet.jpg");
+    std::fs::copy(poster, work.join("poster.jpg")).during(|| "copying the poster".into())?;
     Ok(work)
 }
 

@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn a_page_names_the_whole_address_of_its_picture() {
-        for (page, picture) in [("index.html", "sheet.png"), ("tender.html", "tender.png")] {
+        for (page, picture) in [("index.html", "share-sheet.jpg"), ("tender.html", "tender.png")] {
             let dir = files::root().join("demo/web");
             let file = dir.join(picture);
             let size = std::fs::metadata(&file).map_or(0, |file| file.len());
