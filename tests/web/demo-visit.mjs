@@ -18,10 +18,10 @@ after(() => browser?.close());
 
 /**
  * Opens the demo page; `prepare(page)` runs before it loads. A busy machine without a graphics card
- * draws slowly, so the page is small and the timeouts are long.
+ * draws slowly, so the page is small, it has half as many pixels a side, and the timeouts are long.
  */
 export async function visit({ path = "", ...options } = {}, prepare) {
-  const visit = await open(browser, { viewport: { width: 700, height: 394 }, ...options });
+  const visit = await open(browser, { viewport: { width: 700, height: 394 }, deviceScaleFactor: 0.5, ...options });
   visit.page.setDefaultTimeout(180_000);
   await prepare?.(visit.page);
   await visit.page.goto(new URL(path, url).href);

@@ -30,7 +30,7 @@ const shots = variable("MUSLIN_SHOTS");
 
 test("the sheet moves, and the page fits a wide and a tall screen", async () => {
   for (const [width, height] of [[1280, 720], [390, 844]]) {
-    const { context, page, complaints } = await visitRunning({ viewport: { width, height } });
+    const { context, page, complaints } = await visitRunning({ viewport: { width, height }, deviceScaleFactor: 1 });
     const first = await hash(page);
     await waitUntil(page, () => hash(page), (now) => now !== first, "nothing moves");
     await waitFrames(page, 20);

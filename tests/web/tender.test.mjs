@@ -34,7 +34,7 @@ const isOn = (page, name) => page.evaluate((name) => window.muslinDemo.isOn(name
 
 test("the receipt has a page of its own, which fits a wide and a tall screen", async () => {
   for (const [width, height, hasTouch] of [[1280, 720, false], [390, 844, true]]) {
-    const { context, page, complaints } = await visitReceipt({ viewport: { width, height }, hasTouch });
+    const { context, page, complaints } = await visitReceipt({ viewport: { width, height }, deviceScaleFactor: 1, hasTouch });
     assert.equal(await page.title(), "Tender — Receipt Paper Physics");
     assert.equal((await stats(page)).particles, hasTouch ? 24 * 36 : 40 * 60);
     await checkShareMetadata(page);

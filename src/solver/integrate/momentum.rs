@@ -60,6 +60,11 @@ pub(super) fn fixed_particles(
     (fixed, count)
 }
 
+/// Whether any particle is fixed. Without a branch in the inner loop, so that it runs in SIMD lanes.
+fn has_fixed(w: &[f32]) -> bool {
+    w.chunks(256).any(|w| w.iter().fold(false, |any, w| any | (*w <= 0.0)))
+}
+
 /// What the first `count` of some fixed particles hold a piece with.
 pub(super) fn pivot(p: &Particles, fixed: [usize; 3], count: usize) -> Pivot {
     let [a, b] = [fixed[0], fixed[1]].map(|i| p.x.get(i));
@@ -76,7 +81,8 @@ pub(super) fn remove_internal_momentum(world: &mut World) {
         return;
     }
     let w = &world.particles.w;
-    let (fixed, count) = fixed_particles(0..w.len(), w);
+    let (fixed, count) =
+        if has_fixed(w) { fixed_particles(0..w.len(), w) } else { ([0; MAX_FIXED + 1], 0) };
     if count > MAX_FIXED || !has_corrections(world) {
         return;
     }
@@ -294,7 +300,7 @@ pub(crate) fn is_one_free_piece(world: &World) -> bool {
 impl World {
     /// Whether a pin or a grab holds a particle.
     pub(super) fn is_held(&self) -> bool {
-        self.pins.has_soft() || self.particles.w.iter().any(|w| *w <= 0.0)
+        self.pins.has_soft() || has_fixed(&self.particles.w)
     }
 }
 
