@@ -89,14 +89,19 @@ pub fn moebius_strip() -> MeshDesc {
 /// A shirt: front and back, each made of a body and two sleeves that are separate in the texture.
 /// Open at the neck, the hem and the cuffs; pinned at the shoulders.
 pub fn shirt() -> MeshDesc {
+    dense_shirt(1)
+}
+
+/// The same shirt with `n` × `n` cells in place of each.
+pub fn dense_shirt(n: u32) -> MeshDesc {
     let mut desc = MeshDesc { weld_distance: 1.0e-4, ..MeshDesc::default() };
-    let step = 0.04;
-    // In steps: the body spans x from 6 to 16 and y from 0 to 18; the sleeves span x from 0 to 6
-    // and from 16 to 22, and y from 0 to 5.
+    let step = 0.04 / n as f32;
+    // In steps times `n`: the body spans x from 6 to 16 and y from 0 to 18; the sleeves span x from
+    // 0 to 6 and from 16 to 22, and y from 0 to 5.
     let on_seam = |x: u32, y: u32| {
-        let at_shoulder = y == 0 && !(9..=13).contains(&x);
-        let at_side = (x == 6 || x == 16) && y >= 5;
-        let under_arm = y == 5 && !(6..=16).contains(&x);
+        let at_shoulder = y == 0 && !(9 * n..=13 * n).contains(&x);
+        let at_side = (x == 6 * n || x == 16 * n) && y >= 5 * n;
+        let under_arm = y == 5 * n && !(6 * n..=16 * n).contains(&x);
         at_shoulder || at_side || under_arm
     };
     for (side, u) in [(1.0, 0.0), (-1.0, 1.0)] {
@@ -104,15 +109,17 @@ pub fn shirt() -> MeshDesc {
             let bulge = if on_seam(x, y) { 0.0 } else { 0.03 * side };
             Vec3::new(x as f32 * step, -(y as f32) * step, bulge)
         };
-        let body = push_grid_patch(&mut desc, [11, 19], u, |x, y| place(6 + x, y));
-        push_grid_patch(&mut desc, [7, 6], u + 0.25, place);
-        push_grid_patch(&mut desc, [7, 6], u + 0.5, |x, y| place(16 + x, y));
+        let body =
+            push_grid_patch(&mut desc, [10 * n + 1, 18 * n + 1], u, |x, y| place(6 * n + x, y));
+        let sleeve = [6 * n + 1, 5 * n + 1];
+        push_grid_patch(&mut desc, sleeve, u + 0.25, place);
+        push_grid_patch(&mut desc, sleeve, u + 0.5, |x, y| place(16 * n + x, y));
         if side < 0.0 {
             // Wind the triangles of the back the other way, so that they face outwards.
             let first = desc.indices.iter().position(|v| *v == body).unwrap();
             desc.indices[first..].as_chunks_mut::<3>().0.iter_mut().for_each(|t| t.swap(1, 2));
         }
-        desc.pinned.extend([body + 1, body + 2, body + 8, body + 9]);
+        desc.pinned.extend([1, 2, 8, 9].map(|column| body + column * n));
     }
     desc
 }

@@ -74,6 +74,18 @@ pub fn lumpy_mesh() -> ColliderDesc {
     })
 }
 
+/// A lumpy ball of 10,000 vertices with two ears, 0.25 m high, between which it is concave.
+pub fn head_with_ears() -> ColliderDesc {
+    let ears = [-1.0, 1.0].map(|side| Vec3::new(0.5 * side, 0.85, 0.1).normalize());
+    round_mesh(83, 122, |up, around| {
+        let level = (1.0 - up * up).max(0.0).sqrt();
+        let direction = Vec3::new(level * around.cos(), up, level * around.sin());
+        let ear = |ear: Vec3| (-40.0 * (1.0 - direction.dot(ear))).exp();
+        let lumps = 0.02 * (7.0 * around).sin() * level + 0.02 * (9.0 * up).cos();
+        Vec3::splat(0.2 + lumps + 0.25 * ears.map(ear).into_iter().sum::<f32>())
+    })
+}
+
 /// Triangles whose equal corners share a vertex.
 #[derive(Default)]
 struct Welded {

@@ -2,7 +2,7 @@
 
 use crate::play::{Play, Scene, Setup};
 use crate::shapes::{
-    box_mesh, cuboid, level_sheet, lumpy_mesh, sphere, upright_sheet, with_surface,
+    box_mesh, cuboid, head_with_ears, level_sheet, lumpy_mesh, sphere, upright_sheet, with_surface,
 };
 use muslin::glam::{Quat, Vec3};
 use muslin::{ColliderDesc, GridDesc, PinMode, Result};
@@ -14,6 +14,7 @@ pub fn scenes() -> Vec<Scene> {
         Scene::new("mesh-body-surface", 120, || {
             drape(with_surface(level_sheet(40, 1.17, 0.4)), lumpy_mesh())
         }),
+        Scene::new("mesh-ears", 60, || drape(level_sheet(40, 1.17, 0.5), head_with_ears())),
         Scene::new("box-mesh-surface", 120, || {
             let sheet = with_surface(level_sheet(49, 0.9, 0.25));
             drape(sheet, box_mesh(Vec3::new(0.25, 0.2, 0.25), 6))

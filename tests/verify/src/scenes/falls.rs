@@ -13,7 +13,10 @@ pub fn scenes() -> Vec<Scene> {
         Scene::new("crumple-40", 300, || crumple(40)),
         Scene::new("crumple-64", 600, || crumple(64)),
         Scene::new("crumple-16", 240, || crumple(16)).short(90),
-        Scene::new("drop", 180, || drop(drop_desc(), floor(0.0))),
+        Scene::new("drop", 180, || drop(drop_desc(), floor(0.0))).short(60),
+        Scene::new("drop-level", 180, || {
+            drop(with_surface(level_sheet(40, 0.585, 0.635)), floor(0.0))
+        }),
         Scene::new("drop-on-box", 180, || {
             drop(drop_desc(), cuboid(Vec3::splat(0.5), -Vec3::Y * 0.5))
         }),
@@ -51,15 +54,17 @@ fn crumple(side: u32) -> Result<Setup> {
     Ok(play.into())
 }
 
+/// A sheet in the x–y plane whose lower edge is 5 cm above y = 0.
 fn drop_desc() -> GridDesc {
-    with_surface(level_sheet(40, 39.0 * 0.015, 0.635))
+    let sheet = upright_sheet(40, 0.585);
+    with_surface(GridDesc { origin: sheet.origin.with_y(0.635), ..sheet })
 }
 
 fn of_material(preset: Preset) -> GridDesc {
     GridDesc { material: Material::preset(preset), ..drop_desc() }
 }
 
-/// A level sheet that is dropped with waves.
+/// A sheet that is dropped with waves.
 fn drop(desc: GridDesc, body: muslin::ColliderDesc) -> Result<Setup> {
     let mut play = Play::grid(&desc)?;
     play.add(body)?;

@@ -21,7 +21,8 @@ pub fn scenes() -> Vec<Scene> {
         Scene::new("skirt-kick-skinned", 120, || skinned_skirt(44.0, 2.5, false)).short(110),
         Scene::new("shirt-on-torso", 180, shirt),
         Scene::new("sleeve-on-arm", 180, sleeve),
-        Scene::new("shirt-heap", 240, shirt_heap),
+        Scene::new("shirt-heap", 240, || shirt_heap(meshes::shirt())),
+        Scene::new("shirt-heap-dense", 120, || shirt_heap(meshes::dense_shirt(3))),
     ]
 }
 
@@ -115,8 +116,7 @@ fn sleeve() -> Result<Setup> {
 }
 
 /// A shirt that falls in a heap.
-fn shirt_heap() -> Result<Setup> {
-    let mut desc = meshes::shirt();
+fn shirt_heap(mut desc: MeshDesc) -> Result<Setup> {
     desc.settings.self_collision = SelfCollision::Surface;
     desc.pinned.clear();
     let turn = Quat::from_rotation_x(0.3 * FRAC_PI_2);
