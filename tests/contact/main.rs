@@ -12,6 +12,7 @@ mod checks {
     mod crossings;
     mod distance;
     mod exact;
+    pub mod stretch;
     pub mod surface;
 }
 /// The bodies and sheets of its scenes.
@@ -34,6 +35,8 @@ mod rest_with_intersections;
 mod small_and_fast_bodies;
 mod solid_meshes;
 mod split_separation;
+mod stretch_bound;
 mod surface_collision;
 mod untangling;
+mod upright_drops;
 mod violations;
