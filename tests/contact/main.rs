@@ -22,6 +22,7 @@ mod shapes;
 
 mod added_substeps;
 mod colliders;
+mod corner_in_a_gap;
 mod deforming_colliders;
 mod fast_impacts;
 mod friction_and_contact;
