@@ -59,27 +59,32 @@ fn exact_positions(cloth: &mut Cloth) -> Vec<DVec3> {
 #[test]
 fn a_sheet_rests_on_a_sphere_100_m_away_as_calmly_as_at_zero() {
     // A sheet near zero creeps for a while too, and for how long depends on where it lies.
-    let speed_at_rest = |x: f32| {
+    let speeds_at_rest = |x: f32| {
         let mut cloth = sheet_on_a_sphere(x, SelfCollision::None);
-        cloth.step(1800);
-        max_speed_in(10, &mut cloth)
+        cloth.step(600);
+        let in_11th_second = max_speed_in(1, &mut cloth);
+        cloth.step(1140);
+        [in_11th_second, max_speed_in(10, &mut cloth)]
     };
     // 104.5 m is 0.5 m from the origin of its sheet, so it has the resolution of -0.5 m.
-    let [at_zero, at_half] = [0.0, -0.5].map(speed_at_rest);
+    let [at_zero, at_half] = [0.0, -0.5].map(speeds_at_rest);
+    assert!(at_zero[0] < 1.0e-3, "{} m/s near zero in the 11th second", at_zero[0]);
     for (x, near) in [(100.0, at_zero), (104.5, at_half), (5000.0, at_zero)] {
-        let far = speed_at_rest(x);
-        println!("{x} {far} {near}");
-        assert!(far <= 1.5 * near, "{far} m/s at {x} m, and {near} m/s near zero");
+        let far = speeds_at_rest(x);
+        let is_calm = far[0] <= (1.5 * near[0]).max(1.0e-3) && far[1] <= 1.5 * near[1];
+        assert!(is_calm, "{far:?} m/s at {x} m, and {near:?} m/s near zero");
     }
 }
 
 #[test]
 fn a_sheet_5_km_away_does_not_cross_itself() {
     let [mut near, mut far] = [0.0, 5000.0].map(|x| sheet_on_a_sphere(x, SelfCollision::Surface));
-    for second in 0..10 {
-        near.step(60);
-        far.step(60);
-        assert_eq!(crossing_count(&mut far), 0, "after {second} s");
+    near.step(600);
+    for tick in 0..600 {
+        far.step(1);
+        if tick < 120 || tick % 60 == 59 {
+            assert_eq!(crossing_count(&mut far), 0, "tick {tick}");
+        }
     }
     let speeds = [near, far].each_mut().map(|cloth| max_speed_in(1, cloth));
     assert!(speeds[1] <= 2.0 * speeds[0] + 1.0e-3, "{speeds:?} m/s");
