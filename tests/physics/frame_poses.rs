@@ -166,6 +166,32 @@ fn cloth_carried_at_a_steady_speed_moves_forward_at_24_frames_per_second() {
 }
 
 #[test]
+fn cloth_carried_at_a_steady_speed_keeps_it_at_20_frames_per_second() {
+    for kind in HOLDS {
+        let mut held = HeldSheet::new(kind, 1.0 / 60.0);
+        let count = held.cloth.positions().len() as u32;
+        (0..count).for_each(|i| held.cloth.set_velocity(i, Vec3::X).unwrap());
+        let mut all = [f32::INFINITY, f32::NEG_INFINITY];
+        for frame in 1..=40 {
+            held.set_pose(Vec3::X * (frame as f32 / 20.0), Quat::IDENTITY);
+            let ticks = held.cloth.advance(3.0 / 60.0).unwrap();
+            // In f32 the frame is slightly shorter than three ticks, so the first one runs two.
+            assert_eq!(ticks, if frame == 1 { 2 } else { 3 }, "frame {frame}");
+            let mut velocities = last_displacements(&mut held.cloth);
+            velocities.iter_mut().for_each(|x| *x *= 60.0);
+            let edge = range_of_x(&velocities[..SIZE as usize]);
+            let right = 3.0 / ticks as f32;
+            assert!(edge.iter().all(|v| (v - right).abs() < 1.0e-3), "{kind:?}: edge {edge:?}");
+            if frame > 20 {
+                let [low, high] = range_of_x(&velocities);
+                all = [all[0].min(low), all[1].max(high)];
+            }
+        }
+        assert!(all[0] > 0.5 && all[1] < 1.5, "{kind:?}: {all:?} m/s");
+    }
+}
+
+#[test]
 fn step_reaches_poses_in_its_first_tick() {
     for kind in HOLDS {
         let run = |cloth: &mut Cloth| {
