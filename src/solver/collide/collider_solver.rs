@@ -175,6 +175,7 @@ fn run_pass(
             scheme,
             body: at as u32,
             is_far_from_zero: world.origin != Vec3::ZERO,
+            holds_corners: pass == Pass::Again || is_projection,
             contacts: &mut contacts.collider_contacts,
             contact_slots: &mut contacts.contact_slots,
             max_contacts: contacts.max_contacts,

@@ -121,8 +121,7 @@ pub(super) fn push(
         let to = interpolate(corners.map(|i| particles.end_position(i)), weights);
         let correction = particles.correction((corners, weights), [from, to], penetration);
         deepest = max(penetration.depth, deepest);
-        let w = corners.map(|i| particles.w[i]);
-        pushes.add(corners, weights, w, correction, penetration, carries);
+        pushes.add(particles, (corners, weights), correction, penetration, carries);
     }
     deepest
 }

@@ -26,6 +26,13 @@ use crate::state::colliders::ColliderBody;
 use crate::state::settings::BdfScheme;
 use glam::Vec3;
 
+/// Below this cosine between their normals, one contact opposes another.
+const MAX_OPPOSED_COSINE: f32 = -0.5;
+
+/// The part of its mobility that a corner keeps which another collider pushes back. Were it 0, the other
+/// corners would have to move far where their weights are small.
+const HELD_MOBILITY: f32 = 1.0 / 64.0;
+
 /// The coefficients of a contact, from the collider or else from the cloth material.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactMaterial {
@@ -181,6 +188,8 @@ pub(super) struct LocalParticles<'a> {
     pub body: u32,
     /// Whether the origin of the cloth is not zero.
     pub is_far_from_zero: bool,
+    /// Whether corners of triangles hardly yield where another collider pushes them back.
+    pub holds_corners: bool,
     pub contacts: &'a mut Vec<ColliderContact>,
     /// For each particle the index of its last contact in `contacts`.
     pub contact_slots: &'a mut [u32],
@@ -189,6 +198,25 @@ pub(super) struct LocalParticles<'a> {
 }
 
 impl LocalParticles<'_> {
+    /// Returns the inverse mass with which a corner of a triangle yields to a push along a local normal
+    /// [1/kg]: nearly none where another collider pushes it back.
+    #[inline(never)]
+    pub fn mobility(&self, i: usize, normal: Vec3) -> f32 {
+        let normal = self.frames[1].vector_to_world(normal);
+        let mut at = if self.holds_corners { self.contact_slots[i] } else { NO_CONTACT };
+        while let Some(contact) = self.contacts.get(at as usize) {
+            // A slot may be that of an earlier list.
+            if contact.particle as usize != i {
+                break;
+            }
+            if contact.body != self.body && contact.normal.dot(normal) < MAX_OPPOSED_COSINE {
+                return self.w[i] * HELD_MOBILITY;
+            }
+            at = contact.previous;
+        }
+        self.w[i]
+    }
+
     /// Returns the distance that a particle keeps from the shape [m].
     #[inline(always)]
     pub fn gap_of(&self, i: usize) -> f32 {

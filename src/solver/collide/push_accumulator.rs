@@ -90,17 +90,17 @@ impl PushAccumulator {
     }
 
     /// Adds the correction of a point of a triangle, given by its barycentric weights, to the
-    /// corners. `w` are their inverse masses, `carries` the ways that the surface carries them in the
-    /// substep [m]; vectors are in local space.
+    /// corners. `carries` are the ways that the surface carries them in the substep [m]; vectors are in
+    /// local space.
     pub fn add(
         &mut self,
-        corners: [usize; 3],
-        weights: [f32; 3],
-        w: [f32; 3],
+        particles: &LocalParticles<'_>,
+        (corners, weights): ([usize; 3], [f32; 3]),
         correction: Vec3,
         Penetration { normal, depth, .. }: Penetration,
         carries: [Vec3; 3],
     ) {
+        let w = corners.map(|i| particles.mobility(i, normal));
         let denominator: f32 = (0..3).map(|k| weights[k] * weights[k] * w[k]).sum();
         let is_ignored = self.rollback_depth.is_some_and(|ignored| depth <= ignored);
         if denominator <= 0.0 || is_ignored {

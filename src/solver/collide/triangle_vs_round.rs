@@ -85,8 +85,7 @@ pub(super) fn solve(
         let Some(penetration) = penetration else { return };
         let correction = particles.correction((corners, weights), [from, to], penetration);
         deepest = max(penetration.depth, deepest);
-        let w = corners.map(|i| particles.w[i]);
-        pushes.add(corners, weights, w, correction, penetration, [Vec3::ZERO; 3]);
+        pushes.add(particles, (corners, weights), correction, penetration, [Vec3::ZERO; 3]);
     };
     let is_far = |corners: [usize; 3], limit: f32| corners.iter().all(|i| clearance[*i] > limit);
     let motion = |corners: [usize; 3]| TriangleMotion {

@@ -24,11 +24,10 @@
 
 use crate::solver::collide::collider_contact::ColliderContact;
 use crate::solver::integrate::expected_momentum::ExpectedMomentum;
-use crate::solver::integrate::momentum::has_collider_impulse;
+use crate::solver::integrate::momentum::{combine, has_collider_impulse};
 use crate::solver::integrate::momentum_sums::{FreeParticles, LinearSums, spin_and_inertia};
 use crate::solver::integrate::rigid_motion::RigidMotion;
 use crate::solver::world::World;
-use crate::state::particles::Particles;
 use glam::Vec3;
 
 /// The least impulse of an impact, in units of the weight of the cloth times the length of the substep
@@ -50,21 +49,9 @@ pub(crate) fn begin(world: &mut World, decay: f32) {
     let h = world.regular_scheme().h;
     let (p, scratch) = (&world.particles, &mut world.scratch);
     scratch.correction.resize(p.len());
-    let starts = scratch.relative_wind.slices_mut().into_iter();
-    let paths = scratch.predicted.slices().into_iter().zip(scratch.displacement.slices());
-    for (start, (end, displacement)) in starts.zip(paths) {
-        for ((start, end), displacement) in start.iter_mut().zip(end).zip(displacement) {
-            *start = end - displacement;
-        }
-    }
-    let expected = scratch.correction.slices_mut().into_iter();
-    for (expected, (v, a)) in
-        expected.zip(p.v.slices().into_iter().zip(scratch.acceleration.slices()))
-    {
-        for ((expected, v), a) in expected.iter_mut().zip(v).zip(a) {
-            *expected = v + a * h;
-        }
-    }
+    let path = [&scratch.predicted, &scratch.displacement, &scratch.predicted];
+    combine(&mut scratch.relative_wind, path, [-1.0, 0.0]);
+    combine(&mut scratch.correction, [&p.v, &scratch.acceleration, &p.v], [h, 0.0]);
     let free = FreeParticles {
         x: scratch.relative_wind.slices(),
         displacement: scratch.correction.slices(),
@@ -114,27 +101,10 @@ pub(crate) fn restore(world: &mut World) {
         expected.spin + torque - spin,
         inertia,
     );
-    add_velocity(p, &motion, h);
-    world.scratch.contacts.add_torque(moved.cross(expected.mean_momentum));
-}
-
-/// Adds the velocity of a body to all particles, and to their history with substeps of `h` [s].
-fn add_velocity(p: &mut Particles, motion: &RigidMotion, h: f32) {
-    let Particles { x, v, v_extrapolated, displacement, .. } = p;
-    let history = v_extrapolated.slices_mut().into_iter().zip(displacement.slices_mut());
-    for (axis, (v, (v_extrapolated, displacement))) in
-        v.slices_mut().into_iter().zip(history).enumerate()
-    {
-        let motion = motion.component(axis, x.slices());
-        let points = motion.at[0].iter().zip(motion.at[1]);
-        let history = v_extrapolated.iter_mut().zip(displacement);
-        for ((v, (v_extrapolated, displacement)), (a, b)) in v.iter_mut().zip(history).zip(points) {
-            let change = motion.displacement(*a, *b);
-            *v += change;
-            *v_extrapolated += change;
-            *displacement += change * h;
-        }
+    for i in 0..p.len() {
+        p.add_velocity(i, motion.displacement_at(p.x.get(i)), h);
     }
+    world.scratch.contacts.add_torque(moved.cross(expected.mean_momentum));
 }
 
 /// Whether the cloth touches colliders, none of which moves, and does not move fast.

@@ -60,11 +60,6 @@ pub(super) fn fixed_particles(
     (fixed, count)
 }
 
-/// Whether any particle is fixed. Without a branch in the inner loop, so that it runs in SIMD lanes.
-fn has_fixed(w: &[f32]) -> bool {
-    w.chunks(256).any(|w| w.iter().fold(false, |any, w| any | (*w <= 0.0)))
-}
-
 /// What the first `count` of some fixed particles hold a piece with.
 pub(super) fn pivot(p: &Particles, fixed: [usize; 3], count: usize) -> Pivot {
     let [a, b] = [fixed[0], fixed[1]].map(|i| p.x.get(i));
@@ -81,8 +76,7 @@ pub(super) fn remove_internal_momentum(world: &mut World) {
         return;
     }
     let w = &world.particles.w;
-    let (fixed, count) =
-        if has_fixed(w) { fixed_particles(0..w.len(), w) } else { ([0; MAX_FIXED + 1], 0) };
+    let (fixed, count) = fixed_particles(0..w.len(), w);
     if count > MAX_FIXED || !has_corrections(world) {
         return;
     }
@@ -219,13 +213,18 @@ pub(super) fn has_corrections(world: &World) -> bool {
 /// Fills `correction` with what stages moved each particle by since prediction [m].
 fn compute_corrections(world: &mut World) {
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    let corrections = &mut scratch.correction;
-    corrections.resize(p.len());
-    let all =
-        p.x.slices().into_iter().zip(scratch.predicted.slices()).zip(corrections.slices_mut());
-    for ((x, predicted), corrections) in all {
-        for ((x, predicted), correction) in x.iter().zip(predicted).zip(corrections) {
-            *correction = x - predicted;
+    scratch.correction.resize(p.len());
+    combine(&mut scratch.correction, [&p.x, &scratch.predicted, &p.x], [-1.0, 0.0]);
+}
+
+/// Fills `out` with a + factors[0] · b + factors[1] · c.
+#[inline(never)]
+pub(super) fn combine(out: &mut Columns, from: [&Columns; 3], factors: [f32; 2]) {
+    let [a, b, c] = from.map(Columns::slices);
+    for (axis, out) in out.slices_mut().into_iter().enumerate() {
+        let read = a[axis].iter().zip(b[axis]).zip(c[axis]);
+        for (out, ((a, b), c)) in out.iter_mut().zip(read) {
+            *out = a + b * factors[0] + c * factors[1];
         }
     }
 }
@@ -300,7 +299,7 @@ pub(crate) fn is_one_free_piece(world: &World) -> bool {
 impl World {
     /// Whether a pin or a grab holds a particle.
     pub(super) fn is_held(&self) -> bool {
-        self.pins.has_soft() || has_fixed(&self.particles.w)
+        self.pins.has_soft() || self.particles.w.iter().any(|w| *w <= 0.0)
     }
 }
 
@@ -310,14 +309,6 @@ fn compute_velocity_origins(world: &mut World) {
     let scheme = world.scheme();
     let ratio = scheme.old_weight / scheme.new_weight;
     let (p, scratch) = (&world.particles, &mut world.scratch);
-    let displacements = scratch.displacement.slices().into_iter().zip(p.displacement.slices());
-    let columns = scratch.predicted.slices().into_iter().zip(displacements);
-    for ((predicted, (displacement, last)), origin) in
-        columns.zip(scratch.relative_wind.slices_mut())
-    {
-        let read = predicted.iter().zip(displacement).zip(last);
-        for (((predicted, displacement), last), origin) in read.zip(origin.iter_mut()) {
-            *origin = predicted - displacement + last * ratio;
-        }
-    }
+    let from = [&scratch.predicted, &scratch.displacement, &p.displacement];
+    combine(&mut scratch.relative_wind, from, [-1.0, ratio]);
 }
