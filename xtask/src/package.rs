@@ -13,7 +13,7 @@ use crate::{c, dist, files, shell, symbols};
 pub const NEEDS: &[&Need] = &[&setup::CXX, &setup::CMAKE, &setup::PKG_CONFIG];
 
 /// The largest size of the shared library, stripped [bytes].
-const MAX_SHARED: u64 = 2_092_000;
+const MAX_SHARED: u64 = 2_089_000;
 /// The largest size of the example `hang.c` with the static library, stripped [bytes].
 const MAX_STATIC: u64 = 1_636_000;
 
