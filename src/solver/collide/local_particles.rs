@@ -202,8 +202,11 @@ impl LocalParticles<'_> {
     /// [1/kg]: nearly none where another collider pushes it back.
     #[inline(never)]
     pub fn mobility(&self, i: usize, normal: Vec3) -> f32 {
+        if !self.holds_corners {
+            return self.w[i];
+        }
         let normal = self.frames[1].vector_to_world(normal);
-        let mut at = if self.holds_corners { self.contact_slots[i] } else { NO_CONTACT };
+        let mut at = self.contact_slots[i];
         while let Some(contact) = self.contacts.get(at as usize) {
             // A slot may be that of an earlier list.
             if contact.particle as usize != i {
