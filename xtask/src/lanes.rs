@@ -1,12 +1,15 @@
 //! Runs steps side by side, each in a process of its own.
 //!
 //! ```text
-//! lane 1:  fmt | rust ──────────────── | clippy ── | web ────── | readme ──
-//! lane 2:  bits ───────── | js ────── | c ── | shot ── | clients | fuzz ──
+//! lane 1:  fmt | rust ───────────────────── | shot ── | clients | readme ──
+//! lane 2:  bits ──────── | js ────── | fuzz ── | web ────── | frameworks ──
+//! lane 3:  verify | clippy ───── | c ── |
 //! ```
-//! A lane that is free takes the first step left that writes nothing that a running step uses. A step's
-//! output goes to `target/steps/NAME.log` and is printed as a whole when the step ends. The first
-//! failure ends the other lane's step.
+//! A lane that is free takes the first step left that writes nothing that a running step uses. There is
+//! a lane more than processors, so that none of them idles where a step waits or runs in one thread; but a
+//! step with a browser runs beside one other step only, since pages draw in real time. A step's output
+//! goes to `target/steps/NAME.log` and is printed as a whole when the step ends. The first
+//! failure ends the steps of the other lanes.
 
 use std::fs::File;
 use std::path::PathBuf;
@@ -19,8 +22,10 @@ use crate::failure::{During, Failure, Result};
 use crate::steps::Step;
 use crate::{files, shell};
 
-/// How many steps run at once; each uses several processors by itself.
-const LANES: usize = 2;
+/// How many steps run at once at most; each uses several processors by itself.
+const LANES: usize = 3;
+/// How many steps run at once at most if one of them needs a browser.
+const LANES_WITH_BROWSER: usize = 2;
 
 /// How a step ended.
 pub struct Outcome {
@@ -47,7 +52,7 @@ struct Running {
 pub fn run(steps: &[&'static Step]) -> Result<Vec<Outcome>> {
     files::create_dir(&log_dir())?;
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    let lanes = LANES.min(cores);
+    let lanes = LANES.min(cores + 1);
     let since_epoch = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     let run_name = format!("{}-{}", std::process::id(), since_epoch.as_millis());
     let (sender, ended) = mpsc::channel();
@@ -96,7 +101,14 @@ pub fn run(steps: &[&'static Step]) -> Result<Vec<Outcome>> {
 
 /// The first of `left` that may run beside all of `busy`.
 fn next(left: &[&Step], busy: &[&'static Step]) -> Option<usize> {
-    left.iter().position(|step| !busy.iter().any(|other| step.conflicts_with(other)))
+    let is_crowded = busy.len() >= LANES_WITH_BROWSER;
+    if is_crowded && busy.iter().any(|step| step.needs_browser()) {
+        return None;
+    }
+    left.iter().position(|step| {
+        let has_room = !(is_crowded && step.needs_browser());
+        has_room && !busy.iter().any(|other| step.conflicts_with(other))
+    })
 }
 
 fn log_dir() -> PathBuf {
@@ -166,11 +178,19 @@ mod tests {
 
     #[test]
     fn a_free_lane_passes_over_steps_that_write_what_a_running_step_writes() {
-        let left = [step("clippy"), step("c"), step("js")];
+        let left = [step("shot"), step("c"), step("js")];
         assert_eq!(next(&left, &[]), Some(0));
         assert_eq!(next(&left, &[step("rust")]), Some(1));
         assert_eq!(next(&left, &[step("rust"), step("package")]), Some(2));
         assert_eq!(next(&left[..2], &[step("rust"), step("package")]), None);
+    }
+
+    #[test]
+    fn a_step_with_a_browser_runs_beside_one_other_step_only() {
+        let left = [step("web"), step("c")];
+        assert_eq!(next(&left, &[step("rust")]), Some(0));
+        assert_eq!(next(&left, &[step("rust"), step("clippy")]), Some(1));
+        assert_eq!(next(&left[1..], &[step("rust"), step("examples")]), None);
     }
 
     #[test]

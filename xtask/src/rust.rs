@@ -1,7 +1,9 @@
 //! The tests of the Rust code: format, lints, tests, and the short checks for work on the library.
 
+use std::process::Command;
+
 use crate::failure::{During, Failure, Result};
-use crate::{setup, shell, wasm};
+use crate::{files, setup, shell, wasm};
 
 /// A part of `cargo xtask check`: its name, and what runs it.
 pub type Check = (&'static str, fn() -> Result);
@@ -28,38 +30,47 @@ pub fn check_format() -> Result {
     })
 }
 
-/// Fails where clippy warns (in all crates, without optional parts, and in what is compiled for pages),
-/// and where the documentation has a defect.
+/// Fails where clippy warns (in all crates, and in what is compiled for pages), where the compiler warns
+/// without optional parts, and where the documentation has a defect.
+///
+/// Lints have a folder of their own: what they compile helps no build, and step `rust` locks
+/// `target/debug` for minutes.
 pub fn lint() -> Result {
     setup::ensure_component("clippy", "clippy")?;
     setup::ensure_target(wasm::TARGET)?;
     let all = ["clippy", "--workspace", "--all-targets", "--features=muslin-golden/parallel"];
-    shell::run(shell::cargo(&all).args(DENY_WARNINGS))?;
-    let mut web = shell::cargo(&["clippy", "--lib", "--target", wasm::TARGET]);
+    shell::run(lint_cargo(&all).args(DENY_WARNINGS))?;
+    let mut web = lint_cargo(&["clippy", "--lib", "--target", wasm::TARGET]);
     web.args(["muslin-js", "muslin-demo", "muslin-plain"].map(|name| format!("--package={name}")));
     shell::run(web.args(DENY_WARNINGS))?;
-    lint_features()?;
+    check_features()?;
     check_docs()
+}
+
+/// Cargo that builds in the folder of lints.
+fn lint_cargo(args: &[&str]) -> Command {
+    let mut cargo = shell::cargo(args);
+    cargo.arg("--target-dir").arg(files::target().join("lint"));
+    cargo
 }
 
 /// The features of the crate that can be left out.
 const PARTS: [&str; 7] =
     ["cut", "facet-colliders", "save", "self-collision", "sewing", "shared-rest", "skins"];
 
-/// Fails where clippy warns without one of the parts, without all, and in the module of
-/// `muslin/light`.
-fn lint_features() -> Result {
-    let lint_without = |left_out: &[&str]| {
-        let kept: Vec<_> = PARTS.into_iter().filter(|part| !left_out.contains(part)).collect();
-        let features = format!("--features={}", kept.join(","));
-        let mut cargo = shell::cargo(&["clippy", "--package=muslin", "--lib"]);
-        cargo.args(["--no-default-features", &features]).args(DENY_WARNINGS);
-        shell::run(&mut cargo)
-    };
-    PARTS.iter().try_for_each(|part| lint_without(&[part]))?;
-    lint_without(&PARTS)?;
+/// Fails where clippy warns without any of the parts or in the module of `muslin/light`, or where the
+/// compiler warns without one of the parts. Each line of code is in a build that clippy reads.
+fn check_features() -> Result {
+    let none = ["clippy", "--package=muslin", "--lib", "--no-default-features"];
+    shell::run(lint_cargo(&none).args(DENY_WARNINGS))?;
     let light = ["clippy", "--lib", "--package=muslin-js", "--no-default-features", "--target"];
-    shell::run(shell::cargo(&light).arg(wasm::TARGET).args(DENY_WARNINGS))
+    shell::run(lint_cargo(&light).arg(wasm::TARGET).args(DENY_WARNINGS))?;
+    PARTS.iter().try_for_each(|left_out| {
+        let kept: Vec<_> = PARTS.into_iter().filter(|part| part != left_out).collect();
+        let mut check = lint_cargo(&["rustc", "--profile=check", "--package=muslin", "--lib"]);
+        check.args(["--no-default-features", &format!("--features={}", kept.join(","))]);
+        shell::run(check.args(DENY_WARNINGS))
+    })
 }
 
 /// What looks like a link in a doc comment and is a unit.
@@ -68,7 +79,7 @@ const UNITS: [&str; 13] =
 
 /// Fails where the documentation of the library has a broken link or another defect.
 fn check_docs() -> Result {
-    let mut doc = shell::cargo(&["doc", "--no-deps", "--package=muslin", "--all-features"]);
+    let mut doc = lint_cargo(&["doc", "--no-deps", "--package=muslin", "--all-features"]);
     doc.arg("--document-private-items");
     doc.env("RUSTDOCFLAGS", "-W rustdoc::broken_intra_doc_links");
     let done = doc.output().during(|| "starting cargo doc".into())?;
@@ -120,7 +131,7 @@ fn test_closed_forms() -> Result {
 }
 
 /// `cargo test`, for which a snapshot that differs is a failure and never a new snapshot.
-fn cargo_test(words: &[&str]) -> std::process::Command {
+fn cargo_test(words: &[&str]) -> Command {
     let mut cargo = shell::cargo(&["test"]);
     cargo.args(words).env("INSTA_UPDATE", "no");
     cargo

@@ -106,7 +106,7 @@ pub const STEPS: &[Step] = &[
         name: "clippy",
         about: "no lint reports anything, and no link of the documentation is broken",
         needs: &[],
-        writes: &[DebugBuild],
+        writes: &[],
         reads: &[],
         is_default: true,
         run: rust::lint,
@@ -290,6 +290,11 @@ pub fn is_step(name: &str) -> bool {
 }
 
 impl Step {
+    /// Whether it opens pages in a browser.
+    pub fn needs_browser(&self) -> bool {
+        self.needs.iter().any(|need| need.name == setup::CHROMIUM.name)
+    }
+
     /// Whether one writes what the other writes or reads, so that they must not run side by side.
     pub fn conflicts_with(&self, other: &Self) -> bool {
         let clash = |writer: &Self, user: &Self| {
