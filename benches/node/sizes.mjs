@@ -1,5 +1,6 @@
-// What a page loads: `node sizes.mjs PACKAGE.tgz` prints the sizes of the parts of dist/js, raw and
-// compressed, and the time of a tick with each build of the core.
+// What a page loads: `node sizes.mjs PACKAGE.tgz [--test]` prints the sizes of the parts of dist/js, raw
+// and compressed, and the time of a tick with each build of the core. `--test` compresses less and times
+// few ticks.
 
 import { execFile } from "node:child_process";
 import { readFile, readdir } from "node:fs/promises";
@@ -8,6 +9,8 @@ import { promisify } from "node:util";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 import { Table } from "./table.mjs";
 
+const [tarball, ...options] = process.argv.slice(2);
+const isTest = options.includes("--test");
 const dist = new URL("../../dist/js/", import.meta.url);
 const read = (name) => readFile(new URL(name, dist));
 const scripts = (await readdir(dist)).filter((name) => name.endsWith(".js"));
@@ -32,7 +35,7 @@ const parts = [
 /** Returns the time of a tick of a hanging sheet of 40 x 40 in a new Node process [ms]. */
 async function timeTick(build) {
   const script = fileURLToPath(new URL("tick.mjs", import.meta.url));
-  const { stdout } = await promisify(execFile)(process.execPath, [script, ...build]);
+  const { stdout } = await promisify(execFile)(process.execPath, [script, ...build, ...options]);
   return stdout.trim();
 }
 
@@ -40,10 +43,9 @@ const formatInteger = (value) => value.toLocaleString("en");
 const table = new Table(["part"], ["bytes", "gzip", "brotli", "ms per tick"]);
 for (const [part, names, build] of parts) {
   const all = Buffer.concat(await Promise.all(names.map(read)));
-  const small = { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: all.length };
+  const small = { [constants.BROTLI_PARAM_QUALITY]: isTest ? 1 : 11, [constants.BROTLI_PARAM_SIZE_HINT]: all.length };
   const sizes = [all, gzipSync(all, { level: 9 }), brotliCompressSync(all, { params: small })];
   table.rows.push([part, ...sizes.map(({ length }) => formatInteger(length)), build ? await timeTick(build) : ""]);
 }
-const [tarball] = process.argv.slice(2);
 table.rows.push(["the file that npm installs", "", formatInteger((await readFile(tarball)).length), "", ""]);
 console.log(`\nms per tick: hanging sheet of 40 x 40, normals included, median, in node ${process.version}.\n\n${table}`);

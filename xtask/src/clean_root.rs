@@ -75,7 +75,7 @@ fn check_machine() -> Result {
 fn artefacts() -> Result<[PathBuf; 3]> {
     dist::run(&[TARGET.into()])?;
     python::install()?;
-    clients::pack()?;
+    clients::pack_for_tests()?;
     Ok([dist::archive_of(TARGET)?, python::wheel()?, clients::tarball()])
 }
 

@@ -12,12 +12,18 @@ pub fn tarball() -> PathBuf {
     files::root().join("dist").join(format!("muslin-{}.tgz", env!("CARGO_PKG_VERSION")))
 }
 
-/// Builds the package, packs it once in a run of the tests, and prints the sizes of its parts.
+/// Builds the package, packs it, and prints the sizes of its parts and the time of a tick.
 pub fn pack() -> Result {
-    files::once_in_run("npm-tarball", write_tarball)
+    write_tarball(&[])
 }
 
-fn write_tarball() -> Result {
+/// Builds the package and packs it once in a run of the tests; prints the sizes of its parts, with less
+/// compression and few timed ticks.
+pub fn pack_for_tests() -> Result {
+    files::once_in_run("npm-tarball", || write_tarball(&["--test"]))
+}
+
+fn write_tarball(options: &[&str]) -> Result {
     setup::ensure(&[&setup::NODE])?;
     js::build()?;
     let tarball = tarball();
@@ -33,12 +39,12 @@ fn write_tarball() -> Result {
         return Err(Failure::new(format!("npm pack did not write {}", tarball.display())));
     }
     let mut sizes = shell::command("node");
-    shell::run(sizes.arg(files::root().join("benches/node/sizes.mjs")).arg(&tarball))
+    shell::run(sizes.arg(files::root().join("benches/node/sizes.mjs")).arg(&tarball).args(options))
 }
 
 /// Installs the packed file into projects of several kinds, and opens their pages.
 pub fn test() -> Result {
-    pack()?;
+    pack_for_tests()?;
     js::install_for_tests()?;
     let work = files::target().join("clients");
     files::create_empty_dir(&work)?;
@@ -58,7 +64,7 @@ pub fn test() -> Result {
 /// Installs the packed file beside the frameworks, bundlers and runtimes that the lock file of
 /// `tests/frameworks` lists, builds an app in each, and plays the script there.
 pub fn test_frameworks() -> Result {
-    pack()?;
+    pack_for_tests()?;
     let sources = files::root().join("tests/frameworks");
     let work = files::target().join("frameworks");
     files::create_dir(&work)?;

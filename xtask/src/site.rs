@@ -50,7 +50,7 @@ fn is_base(base: &str) -> bool {
 /// Builds everything that the site shows, then the site.
 fn build(base: &str) -> Result {
     setup::ensure(NEEDS)?;
-    clients::pack()?;
+    clients::pack_for_tests()?;
     web::build()?;
     let rustdoc = build_rust_reference()?;
     let work = copy_sources()?;
