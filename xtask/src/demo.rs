@@ -96,15 +96,16 @@ fn open_browser(url: &str) {
 }
 
 /// The pictures of step `shot`: the name of each, and the options of the demo that draw it. Film
-/// strips show gestures: tearing and cutting the sheet, handling the receipt.
+/// strips show gestures: tearing and cutting the sheet, handling the receipt. The small receipt has
+/// fewer particles and takes less time; `letter` shows the large one.
 const TEST_PICTURES: [(&str, &str); 7] = [
     ("shot", ""),
     ("yank", "--play yank --strip 5 --size 400x400"),
     ("cut", "--play cut --strip 5 --size 400x400"),
-    ("tender-fold", "--scene tender --play fold --strip 5 --size 400x400"),
+    ("tender-fold", "--scene tender --small --play fold --strip 5 --size 400x400"),
     ("tender-letter", "--scene tender --play letter --strip 5 --size 400x400"),
-    ("tender-crumple", "--scene tender --play crumple --strip 5 --size 400x400"),
-    ("tender-toss", "--scene tender --play toss --strip 5 --size 400x400"),
+    ("tender-crumple", "--scene tender --small --play crumple --strip 5 --size 400x400"),
+    ("tender-toss", "--scene tender --small --play toss --strip 5 --size 400x400"),
 ];
 
 /// Whether step `shot` draws a picture with these options.
