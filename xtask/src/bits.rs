@@ -32,9 +32,9 @@ const LIMIT: &str = "MUSLIN_SIMD_LIMIT";
 /// The scene that qemu plays where a limit takes its place.
 const EMULATED_SCENE: &str = "receipt";
 
-/// The profile of the tests and of all platforms: optimised as a user's own release build is,
-/// without link-time optimisation. The C library and the npm package are built with link-time
-/// optimisation; their own tests compare the hash of a script.
+/// The profile of the tests and of all platforms, optimised without link-time optimisation: for this
+/// machine as a user's own release build, for other targets in one piece. The C library and the npm
+/// package are built with link-time optimisation; their own tests compare the hash of a script.
 pub const TEST_PROFILE: &str = "release-test";
 
 /// What comparing needs.
@@ -346,10 +346,13 @@ fn can_run(instructions: &str) -> bool {
     }
 }
 
+/// The crate in one piece, as it is shipped: that takes a fifth less time to compile.
+const ONE_UNIT: &str = "--config=profile.release-test.codegen-units=1";
+
 /// Cargo for a target, with these compiler flags and none from the environment.
 fn cargo_for(args: &[&str], (target, flags): (&str, &str)) -> Command {
     let mut cargo = cargo(args);
-    cargo.args(["--target", target]).env("RUSTFLAGS", flags);
+    cargo.args(["--target", target, ONE_UNIT]).env("RUSTFLAGS", flags);
     cargo
 }
 
