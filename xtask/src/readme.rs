@@ -287,7 +287,7 @@ fn run_command(command: &str, is_step: IsStep) -> Result {
 fn run_in_shell(command: &str) -> Result {
     let mut shell = shell::command("sh");
     shell.args(["-ec", command]);
-    shell::without_incremental_builds(&mut shell);
+    shell::build_once(&mut shell);
     shell::run(&mut shell)
 }
 

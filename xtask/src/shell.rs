@@ -14,18 +14,29 @@ pub fn command(program: impl AsRef<std::ffi::OsStr>) -> Command {
     command
 }
 
-/// The cargo that runs this program, without incremental builds in CI.
+/// The cargo that runs this program, in CI with the settings of [`build_once`].
 pub fn cargo(args: &[&str]) -> Command {
     let mut cargo = command(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    without_incremental_builds(cargo.args(args));
+    build_once(cargo.args(args));
     cargo
 }
 
-/// Turns incremental builds off in CI, where nothing is built twice: they take longer. All cargo
-/// commands of a run must agree on this, or cargo builds every crate once with it and once without.
-pub fn without_incremental_builds(command: &mut Command) {
-    if std::env::var_os("CI").is_some() && std::env::var_os("CARGO_INCREMENTAL").is_none() {
-        command.env("CARGO_INCREMENTAL", "0");
+/// The environment variables with which cargo builds in CI, where nothing is built twice and no
+/// debugger runs: no incremental builds, no line numbers in backtraces (the message of a panic still
+/// names its line), and each crate in one piece, which the compiler optimises in less time and better.
+const ONCE: [(&str, &str); 3] = [
+    ("CARGO_INCREMENTAL", "0"),
+    ("CARGO_PROFILE_DEV_DEBUG", "0"),
+    ("CARGO_PROFILE_DEV_CODEGEN_UNITS", "1"),
+];
+
+/// Sets the variables of [`ONCE`] in CI, unless they are set. All cargo commands of a run must agree
+/// on them, or cargo builds every crate once with them and once without.
+pub fn build_once(command: &mut Command) {
+    if std::env::var_os("CI").is_some() {
+        for (name, value) in ONCE.into_iter().filter(|(name, _)| std::env::var_os(name).is_none()) {
+            command.env(name, value);
+        }
     }
 }
 
