@@ -50,7 +50,7 @@ pub fn lint() -> Result {
 /// Cargo that builds in the folder of lints.
 fn lint_cargo(args: &[&str]) -> Command {
     let mut cargo = shell::cargo(args);
-    cargo.arg("--target-dir").arg(files::target().join("lint"));
+    cargo.env("CARGO_TARGET_DIR", files::target().join("lint"));
     cargo
 }
 
