@@ -52,14 +52,21 @@ fn fine_settings() -> Settings {
     Settings { damping: 3.0, substeps: 32, ..Settings::default() }
 }
 
-/// Rings of particles in a disc. Edges of 5.4 mm are well below half of the shortest bending
-/// length. With edges of 7.5 mm, folds of silk cannot bend in both directions, and a silk disc has
-/// up to 13 points more.
-const RINGS: u32 = 28;
+/// Returns the number of rings of particles in a disc: edges must be well below half of the bending
+/// length. With edges of 7.5 mm instead of 5.4 mm, folds of silk cannot bend in both directions, and a
+/// silk disc has up to 13 points more. Stiffer fabrics have edges of 7.1 mm.
+fn rings(material: &Material) -> u32 {
+    if bending_length(material) < 0.018 { 28 } else { 21 }
+}
+
+/// The bending length of a plate [m]. A strip has 0.96 of it, and materials are specified by strips.
+fn bending_length(material: &Material) -> f32 {
+    (material.bend_stiffness / (material.density * G)).cbrt() / 0.96
+}
 
 /// The drape coefficient of a fabric [%], and its number of folds.
 fn drape_and_folds(material: &Material, turn: f32) -> (f32, usize) {
-    let (cloth, ticks) = settled_disc(material, RINGS, turn, fine_settings());
+    let (cloth, ticks) = settled_disc(material, rings(material), turn, fine_settings());
     assert!(ticks < MAX_TICKS, "it did not settle in {ticks} ticks");
     let folds = Outline::from_cloth(&cloth, RADIUS).count_folds();
     (100.0 * drape_coefficient(&cloth, SUPPORT_RADIUS, RADIUS), folds)
@@ -70,8 +77,7 @@ const CURVE: [(f32, f32); 5] = [(1.5, 35.7), (2.0, 55.6), (2.5, 73.1), (3.0, 82.
 
 /// The drape coefficient of a material on the reference curve [%].
 fn reference_drape(material: &Material) -> f32 {
-    // A strip has 0.96 of a plate's bending length, and materials are specified by strips.
-    let c = (material.bend_stiffness / (material.density * G)).cbrt() * 100.0 / 0.96;
+    let c = 100.0 * bending_length(material);
     let next = CURVE.iter().position(|(at, _)| *at >= c).unwrap_or(CURVE.len() - 1).max(1);
     let ((low, a), (high, b)) = (CURVE[next - 1], CURVE[next]);
     (a + (b - a) * (c - low) / (high - low)).clamp(0.0, 100.0)
