@@ -116,7 +116,7 @@ fn stacked_sheets_rest_one_thickness_apart() {
 #[test]
 fn a_stack_of_eight_sheets_rests() {
     for (thickness, shift) in [(0.002, 0.0), (0.0003, 0.0037)] {
-        let mut desc = stacked_sheets(8, 12, 0.3, |sheet, x| {
+        let mut desc = stacked_sheets(8, 9, 0.22, |sheet, x| {
             let aside = Vec3::new(1.0, 0.0, 0.37) * shift * sheet as f32;
             x + aside + Vec3::Y * (0.02 + 0.01 * sheet as f32)
         });
