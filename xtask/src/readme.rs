@@ -244,7 +244,8 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["test", steps @ ..] if steps.iter().all(|step| is_step(step)) => Action::Tests,
         // Step `shot` tests what it prints without a display.
         ["demo"] => Action::Step("shot"),
-        ["demo", "--web"] => Action::Step("web"),
+        // Step `web` builds the page and serves it.
+        ["demo", "--web"] | ["web"] => Action::Step("web"),
         ["demo", "--shot", _file, options @ ..] if demo::is_test_picture(options) => {
             Action::Step("shot")
         }
@@ -256,7 +257,7 @@ fn action(command: &str, is_step: IsStep) -> Action<'_> {
         ["dist", ..] => Action::Step("dist"),
         ["godot"] => Action::Step("godot"),
         ["examples"] => Action::Step("examples"),
-        ["web" | "setup" | "manual-pictures" | "share-pictures"] => Action::Chore(rest.to_vec()),
+        ["setup" | "manual-pictures" | "share-pictures"] => Action::Chore(rest.to_vec()),
         ["verify", "--short"] | ["validate", ..] => Action::Step("verify"),
         ["bench", tables @ ..] => Action::Bench(tables.to_vec()),
         _ => Action::Unknown,

@@ -187,7 +187,7 @@ pub const STEPS: &[Step] = &[
         name: "readme",
         about: "every block of code and every command in README.md, CONTRIBUTING.md and docs",
         needs: readme::NEEDS,
-        writes: &[CLibrary, DebugBuild, PythonPackage, DemoPage],
+        writes: &[CLibrary, DebugBuild, PythonPackage],
         reads: &[NpmPackage],
         is_default: true,
         run: || readme::test(is_step),
