@@ -217,7 +217,7 @@ fn compute_corrections(world: &mut World) {
     combine(&mut scratch.correction, [&p.x, &scratch.predicted, &p.x], [-1.0, 0.0]);
 }
 
-/// Fills `out` with a + factors[0] · b + factors[1] · c. A factor of 0 leaves c out: one loop for all
+/// Fills `out` with `a + factors[0] · b + factors[1] · c`. A factor of 0 leaves c out: one loop for all
 /// sums takes less code than a loop for each.
 #[inline(never)]
 pub(super) fn combine(out: &mut Columns, from: [&Columns; 3], factors: [f32; 2]) {
