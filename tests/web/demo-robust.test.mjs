@@ -20,7 +20,7 @@ import {
 
 /** Least number of rounds of random input: each key is pressed once. */
 const RANDOM_INPUT_ROUNDS = 18;
-/** Least duration of the random input [s]. */
+/** Least duration of the random input [s]; the environment variable MUSLIN_ABUSE overrides it. */
 const RANDOM_INPUT_SECONDS = Number(process.env.MUSLIN_ABUSE ?? 5);
 
 test("without WebGL the page shows a message and logs no error", async () => {

@@ -6,10 +6,10 @@
 //! lane 3:  verify | clippy ───── | c ── |
 //! ```
 //! A lane that is free takes the first step left that writes nothing that a running step uses. There is
-//! a lane more than processors, so that none of them idles where a step waits or runs in one thread; but a
-//! step with a browser runs beside one other step only, since pages draw in real time. A step's output
-//! goes to `target/steps/NAME.log` and is printed as a whole when the step ends. The first
-//! failure ends the steps of the other lanes.
+//! one lane more than there are processors, at most three, so that no processor is idle while a step waits
+//! or runs in one thread. A step with a browser runs beside one other step only, since pages draw in real
+//! time. A step's output goes to `target/steps/NAME.log` and is printed as a whole when the step ends. The
+//! first failure ends the steps of the other lanes.
 
 use std::fs::File;
 use std::path::PathBuf;
